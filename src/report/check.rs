@@ -57,31 +57,23 @@ fn machine(scene: &CheckedScene) -> String {
     let polygon = &machine.polygon;
     let clearance = scene.clearance();
     let room = if clearance > 0.0 { "a clearance of" } else { "an interference of" };
-    let corners = if polygon.has_corners() {
-        format!(
-            "With {} the blades form {} groups of {}, between which a wave can lock.",
-            count(u64::from(polygon.nodal_diameters), "nodal diameter"),
-            polygon.sides,
-            polygon.blades_per_side
-        )
-    } else {
-        format!(
-            "With {} the blades form no corner: no wave can lock.",
-            count(u64::from(polygon.nodal_diameters), "nodal diameter")
-        )
+    let diameters = count(u64::from(polygon.nodal_diameters), "nodal diameter");
+    let groups = match polygon.has_corners() {
+        true => format!(
+            "{} groups of {}, between which a wave can lock",
+            polygon.sides, polygon.blades_per_side
+        ),
+        false => "no corner: no wave can lock".to_string(),
     };
     format!(
-        "{} of {} in a casing of the radius {}: {room} {}, {} % of the radius. {corners}",
+        "{} of {} in a casing of the radius {}: {room} {}, {} % of the radius. With \
+         {diameters} the blades form {groups}.",
         count(u64::from(polygon.blades), "blade"),
-        length(machine.blade_length),
-        length(scene.casing.radius_m),
-        length(clearance.abs()),
+        with_unit(machine.blade_length, 6, "m"),
+        with_unit(scene.casing.radius_m, 6, "m"),
+        with_unit(clearance.abs(), 6, "m"),
         short(rounded(100.0 * clearance.abs() / scene.casing.radius_m, 3)),
     )
-}
-
-fn length(x: f64) -> String {
-    with_unit(x, 6, "m")
 }
 
 fn frequencies(scene: &CheckedScene) -> String {
@@ -119,7 +111,7 @@ fn limits(margins: &Margins) -> String {
         if !(speeds || limit.name == LimitName::TouchingPulse) {
             continue;
         }
-        let value = words::value(value, 6, limit.quantity);
+        let value = with_unit(value, 6, limit.quantity.unit());
         let margin = limit
             .margin
             .map_or(String::new(), |part| format!(" ({} from here)", words::to_limit(part)));
@@ -133,15 +125,12 @@ fn limits(margins: &Margins) -> String {
 /// Says for which nodal diameters the casing's modes are missing and what replaces them; `None` if
 /// all are given. A note of the scene on its modes takes precedence.
 fn unknown(scene: &CheckedScene) -> Option<String> {
-    let half = scene.bladed_disk.blades / 2;
-    let known = |modes: &[rubscope_solver::model::Mode]| {
-        (0..=half).filter(|n| modes.iter().any(|mode| mode.nodal_diameters == *n)).count() as u64
-    };
     if let Some(note) = scene.modes_note() {
         return Some(format!("{}.", capital(&note)));
     }
-    let all = u64::from(half) + 1;
-    match known(&scene.casing.modes) {
+    let all = scene.bladed_disk.blades / 2 + 1;
+    let is_known = |n: &u32| scene.casing.modes.iter().any(|mode| mode.nodal_diameters == *n);
+    match (0..all).filter(is_known).count() as u32 {
         0 => Some(format!(
             "One mode of the casing is given; for other nodal diameters than {} nothing is \
              known, and the same mode is used.",

@@ -7,21 +7,28 @@ use rubscope_solver::motion::Sample;
 /// run out of memory and end the program.
 pub const HISTORY_VALUES: usize = 100_000_000;
 
-/// Names of the columns before the gaps of the individual blades. The multipliers are the sum, the
-/// smallest and the largest over the blade groups in contact, and 0 without contact.
-const COLUMNS: [&str; 11] = [
-    "t_s",
-    "theta_rad",
-    "speed_rad_s",
-    "u_c_m",
-    "u_s_m",
-    "alpha_c_rad",
-    "alpha_s_rad",
-    "gap_min_m",
-    "multiplier_sum_n",
-    "multiplier_min_n",
-    "multiplier_max_n",
+/// Name of a column, and its value in a sample.
+type NamedValue = (&'static str, fn(&Sample) -> f64);
+
+/// Columns before the gaps of the individual blades. The multipliers are the sum, the smallest and
+/// the largest over the blade groups in contact, and 0 without contact.
+const COLUMNS: [NamedValue; 11] = [
+    ("t_s", |sample| sample.state.t_s),
+    ("theta_rad", |sample| sample.rotor_angle_rad),
+    ("speed_rad_s", |sample| sample.rotor_speed_rad_s),
+    ("u_c_m", |sample| sample.state.u[0]),
+    ("u_s_m", |sample| sample.state.u[1]),
+    ("alpha_c_rad", |sample| sample.state.alpha[0]),
+    ("alpha_s_rad", |sample| sample.state.alpha[1]),
+    ("gap_min_m", |sample| sample.gaps.iter().copied().fold(f64::INFINITY, f64::min)),
+    ("multiplier_sum_n", |sample| forces(sample).fold(0.0, |sum, force| sum + force)),
+    ("multiplier_min_n", |sample| forces(sample).reduce(f64::min).unwrap_or(0.0)),
+    ("multiplier_max_n", |sample| forces(sample).reduce(f64::max).unwrap_or(0.0)),
 ];
+
+fn forces(sample: &Sample) -> impl Iterator<Item = f64> {
+    sample.mean_forces.iter().map(|(_, force)| *force)
+}
 
 /// A run as sampled columns. A multiplier (contact force \[N\]) belongs to a blade group; it is the
 /// mean since the previous sample, and negative for a push.
@@ -37,7 +44,7 @@ impl History {
     /// Creates an empty history with one gap column for each of `blades` blades.
     pub fn new(blades: u32) -> Self {
         let gaps = (1..=blades).map(|blade| format!("gap_{blade}_m"));
-        let names = COLUMNS.into_iter().map(String::from).chain(gaps).collect();
+        let names = COLUMNS.map(|(name, _)| name.to_string()).into_iter().chain(gaps).collect();
         Self { names, rows: Vec::new() }
     }
 
@@ -52,23 +59,7 @@ impl History {
     /// for them: the smallest gap is taken from them. A sample with a number that is not finite is
     /// skipped.
     pub fn push(&mut self, sample: &Sample) {
-        let forces = || sample.mean_forces.iter().map(|(_, force)| *force);
-        let gap_min = sample.gaps.iter().copied().fold(f64::INFINITY, f64::min);
-        let state = &sample.state;
-        let row = [
-            state.t_s,
-            sample.rotor_angle_rad,
-            sample.rotor_speed_rad_s,
-            state.u[0],
-            state.u[1],
-            state.alpha[0],
-            state.alpha[1],
-            gap_min,
-            forces().fold(0.0, |sum, force| sum + force),
-            forces().reduce(f64::min).unwrap_or(0.0),
-            forces().reduce(f64::max).unwrap_or(0.0),
-        ];
-        let row = row.into_iter().chain(sample.gaps.iter().copied());
+        let row = COLUMNS.iter().map(|(_, value)| value(sample)).chain(sample.gaps.iter().copied());
         let row: Vec<f64> = row.take(self.names.len()).collect();
         if row.iter().all(|value| value.is_finite()) {
             self.rows.push(row);

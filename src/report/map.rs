@@ -1,12 +1,13 @@
 //! The interaction map as a sheet: `rubscope.map/1` in JSON, a row for each cell, a figure with the
 //! boundary curves of its zones, and text with one character per cell.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::number::{per_speed, rounded, short, speed_unit};
+use super::line::wrapped;
+use super::number::{count, per_speed, rounded, short, speed_unit};
 use super::summary::OF_WHAT;
 use super::symbols::greek;
-use super::table::{Table, TableCell};
+use super::table::{Column, Table, TableCell, WIDTH};
 use super::{CommandLine, Sheet};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{Key, keys};
@@ -30,7 +31,7 @@ pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
     for (name, value) in CELLS {
         let row = move |row| {
             let cells = (0..plan.x.count).map(|column| map.at(column, row as u32));
-            cells.map(|cell| cell.map_or(Value::Null, value)).collect()
+            cells.map(|cell| TableCell::from(cell.as_ref().map(value)).in_json()).collect()
         };
         sheet.list(name, plan.y.count as usize, row);
     }
@@ -42,13 +43,11 @@ pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
     sheet
 }
 
-/// Name of a value of each cell in JSON, and the value.
-type CellValue = (&'static str, fn(Cell) -> Value);
-
-const CELLS: [CellValue; 3] = [
-    ("verdict", |cell| json!(cell.verdict)),
-    ("sensitive", |cell| json!(cell.sensitive)),
-    ("depends_on_step", |cell| json!(cell.depends_on_step)),
+/// Columns of the cells of the map.
+const CELLS: [Column<'_, Cell>; 3] = [
+    ("verdict", |cell| cell.verdict.as_ref().into()),
+    ("sensitive", |cell| cell.sensitive.into()),
+    ("depends_on_step", |cell| cell.depends_on_step.into()),
 ];
 
 /// Returns the command that computes this map, all of its shares at once.
@@ -74,13 +73,12 @@ fn names(plan: &MapPlan) -> [&str; 2] {
 
 /// Returns the table for files, one row per cell.
 pub fn table(map: &Map) -> Table<'_> {
-    Table::new(columns(&map.plan).map(String::from), map.plan.len(), |index| row(map, index))
+    Table::new(columns(&map.plan), map.plan.len(), |index| row(map, index))
 }
 
 /// Returns the names of the columns of [`row`].
-pub(super) fn columns(plan: &MapPlan) -> [&str; 5] {
-    let [x, y] = names(plan);
-    [x, y, "verdict", "sensitive", "depends_on_step"]
+pub(super) fn columns(plan: &MapPlan) -> Vec<String> {
+    names(plan).into_iter().chain(CELLS.map(|(name, _)| name)).map(String::from).collect()
 }
 
 /// Returns the cells of the table for the map cell `index`.
@@ -88,14 +86,10 @@ pub(super) fn row(map: &Map, index: usize) -> Vec<TableCell> {
     let (x, y) = (&map.plan.x, &map.plan.y);
     let (row, column) = (index as u32 / x.count, index as u32 % x.count);
     let cell = map.at(column, row);
-    vec![
-        // A plain number: `to_string` never uses a power of ten.
-        x.value(column).to_string().into(),
-        y.value(row).to_string().into(),
-        cell.map(|cell| cell.verdict.to_string()).into(),
-        cell.map(|cell| cell.sensitive).into(),
-        cell.map(|cell| cell.depends_on_step).into(),
-    ]
+    // A plain number: `to_string` never uses a power of ten.
+    let at = [x.value(column), y.value(row)].map(|value| value.to_string().into());
+    let values = CELLS.map(|(_, value)| cell.as_ref().map(value).into());
+    at.into_iter().chain(values).collect()
 }
 
 /// Returns the factor from the SI unit of an axis to the unit shown: 1 except for speeds in rpm.
@@ -255,20 +249,17 @@ fn legend(map: &Map) -> Vec<String> {
     let doubtful = |verdict| Cell { sensitive: true, ..Cell::of(verdict) };
     let letters = Verdict::ALL.map(|verdict| mark(Some(doubtful(verdict))));
     let letters = letters.map(String::from).join(" ");
-    let cells = |count: usize, what: &str| match count {
-        1 => format!("the {what} cell"),
-        _ => format!("the {count} {what} cells"),
-    };
-    if sensitive > 0 {
-        let marked = cells(sensitive, "sensitive");
-        lines.push(format!("A letter ({letters}) marks {marked}, where a change of 1e-9"));
-        lines.push(format!("{OF_WHAT} changes the verdict or the number of impacts."));
-    }
-    if by_step > 0 {
-        let marked = cells(by_step, "doubtful");
-        lines.push(format!(
-            "A letter ({letters}) marks {marked}, where another step changes the verdict."
-        ));
+    let whys = [
+        (
+            sensitive,
+            format!("a change of 1e-9 {OF_WHAT} changes the verdict or the number of impacts"),
+        ),
+        (by_step, "another step changes the verdict".to_string()),
+    ];
+    for (marked, why) in whys.iter().filter(|(marked, _)| *marked > 0) {
+        let marked = count(*marked as u64, "cell");
+        let told = format!("A letter ({letters}) marks {marked}, where {why}.");
+        lines.extend(wrapped(&told, WIDTH));
     }
     lines
 }

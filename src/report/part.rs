@@ -77,7 +77,7 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "{START}{}", serde_json::to_string(&origin)?)?;
     let is_computed = |index: &usize| map.cells[*index].is_some();
     let computed: Vec<usize> = (0..map.cells.len()).filter(is_computed).collect();
-    let table = Table::new(columns(&map.plan).map(String::from), computed.len(), |place| {
+    let table = Table::new(columns(&map.plan), computed.len(), |place| {
         let index = computed[place];
         std::iter::once((index as u64).into()).chain(row(map, index)).collect()
     });
@@ -85,9 +85,8 @@ pub fn write(map: &Map, out: &mut dyn Write) -> std::io::Result<()> {
 }
 
 /// Returns the names of the columns of a share.
-fn columns(plan: &MapPlan) -> [&str; 6] {
-    let [x, y, verdict, sensitive, depends_on_step] = map::columns(plan);
-    ["cell", x, y, verdict, sensitive, depends_on_step]
+fn columns(plan: &MapPlan) -> Vec<String> {
+    std::iter::once("cell".to_string()).chain(map::columns(plan)).collect()
 }
 
 /// Reads named shares of one map and joins them.
@@ -116,7 +115,7 @@ pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Resul
         };
         let mut table = csv::Reader::from_reader(reader.take(LARGEST_TABLE));
         let columns = columns(&map.plan);
-        let own = |given: &csv::StringRecord| given.is_empty() || given.iter().eq(columns);
+        let own = |given: &csv::StringRecord| given.is_empty() || given.iter().eq(&columns);
         if !table.headers().is_ok_and(own) {
             return Err(refused(&format!("line 2 is not {}", columns.join(","))));
         }

@@ -35,26 +35,15 @@ pub fn series(way: &Way) -> String {
 /// Reason why there is no reference, as the end of a sentence.
 pub const WHY_NONE: &str = "the run of the reference fails before its end";
 
-/// Describes how accurate the reference is.
-fn goodness(reference: &Reference) -> String {
-    let Some(error) = reference.error.filter(|_| reference.method != Method::None) else {
-        return format!("Ends cannot be compared: {WHY_NONE}.");
-    };
-    let change =
-        if reference.way.step_s.is_some() { "Twice its step" } else { "Half its tolerance" };
-    format!("{change} moves its end by {} of the clearance.", short(rounded(error, 2)))
-}
-
-/// Describes verdict, method and error of the reference in a few words, for one line of the screen.
+/// Describes verdict, method and error of the reference in a few words.
 pub fn reference_words(reference: &Reference) -> String {
-    let verdict = reference.verdict;
+    let method = match reference.method {
+        Method::Events => "by events",
+        Method::FinestStep => "finest step",
+        Method::None => return format!("none: {WHY_NONE}"),
+    };
     let error = reference.error.map(|error| format!(", error {} g0", short(rounded(error, 1))));
-    let error = error.unwrap_or_default();
-    match reference.method {
-        Method::Events => format!("{verdict}, by events"),
-        Method::FinestStep => format!("{verdict}, finest step{error}"),
-        Method::None => format!("none: {WHY_NONE}"),
-    }
+    format!("{}, {method}{}", reference.verdict, error.unwrap_or_default())
 }
 
 /// Returns the measurements as a table; files get more columns than the screen.
@@ -109,16 +98,15 @@ pub fn sheet(report: &Precision, command: CommandLine) -> Sheet<'_> {
     let reference = &report.reference;
     let mut sheet = Sheet::new("precision", 1, command, &report.scene);
     let Way { solver, contact, model, step_s, .. } = reference.way;
-    let step = step_s.map_or(String::new(), |step| format!(", the finest step, {} s", short(step)));
+    let step = step_s.map_or(String::new(), |step| format!(", step {} s", short(step)));
     sheet.fact("reference", reference);
     sheet.line(&report.scene.title);
     sheet.line(format!(
         "Reference: {solver} solver, {contact}, {model} model{step}: {}, {}, {}.",
-        reference.verdict,
+        reference_words(reference),
         count(reference.impact_count, "impact"),
         time(reference.wall_s),
     ));
-    sheet.line(goodness(reference));
     if report.scene.has_slope_or_friction() && reference.method == Method::Events {
         sheet.line(
             "The reference is linearised: it neglects blade angles in the phases of the gaps, which \

@@ -117,7 +117,8 @@ impl TableCell {
         }
     }
 
-    fn in_json(&self) -> Value {
+    /// Returns the cell as JSON.
+    pub fn in_json(&self) -> Value {
         match self {
             // A number that is not finite is `null`.
             Self::Number(x) | Self::Told(x, _) => json!(x),
@@ -141,35 +142,17 @@ impl<T: Into<TableCell>> From<Option<T>> for TableCell {
     }
 }
 
-impl From<bool> for TableCell {
-    fn from(yes: bool) -> Self {
-        Self::Flag(yes)
-    }
+/// Makes cells of a kind from a type.
+macro_rules! cells {
+    ($($kind:ident($type:ty)),*) => {
+        $(impl From<$type> for TableCell {
+            fn from(content: $type) -> Self {
+                Self::$kind(content.into())
+            }
+        })*
+    };
 }
-
-impl From<u64> for TableCell {
-    fn from(n: u64) -> Self {
-        Self::Count(n)
-    }
-}
-
-impl From<u32> for TableCell {
-    fn from(n: u32) -> Self {
-        Self::Count(n.into())
-    }
-}
-
-impl From<&str> for TableCell {
-    fn from(word: &str) -> Self {
-        Self::Word(word.to_string())
-    }
-}
-
-impl From<String> for TableCell {
-    fn from(word: String) -> Self {
-        Self::Word(word)
-    }
-}
+cells!(Flag(bool), Count(u64), Count(u32), Word(&str), Word(String));
 
 /// A column of a table: its heading, and the function that makes its cell from an item.
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);

@@ -7,6 +7,7 @@ pub mod words;
 use serde_json::json;
 
 use super::line::wrapped;
+use super::number::with_unit;
 use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
 use super::{CommandLine, Sheet};
@@ -15,13 +16,8 @@ use rubscope_solver::study::margins::{Limit, LimitName, Margins, acting};
 /// Number of parameters listed with each limit: those that move it most.
 pub const STRONGEST: usize = 3;
 
-/// Returns a table with one row per limit, under its name in files.
-pub fn table(margins: &Margins) -> Table<'static> {
-    titled(margins, |name| name.to_string())
-}
-
-/// As [`table`], with `title` making the name of each limit.
-pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table<'static> {
+/// Returns a table with one row per limit, named by `title`.
+pub fn table(margins: &Margins, title: fn(LimitName) -> String) -> Table<'static> {
     let parameters: Vec<&str> = acting(&margins.scene).map(|parameter| parameter.path).collect();
     let people = ["+1 % of", "each", "moves it by"].map(Heading::shown);
     let files = [Heading::filed("quantity"), "value".into(), Heading::filed("present")];
@@ -32,7 +28,7 @@ pub fn titled(margins: &Margins, title: fn(LimitName) -> String) -> Table<'stati
         // Same word as in JSON.
         let quantity = json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from);
         let value = limit.value.map_or(TableCell::Empty, |value| {
-            TableCell::Told(value, words::value(value, 6, limit.quantity))
+            TableCell::Told(value, with_unit(value, 6, limit.quantity.unit()))
         });
         let own = [
             TableCell::Word(match limit.lobes {
@@ -80,12 +76,12 @@ pub fn sheet(margins: &Margins, command: CommandLine) -> Sheet<'_> {
     sheet.facts(margins);
     sheet.paragraph(&margins.scene.title);
     sheet.paragraph(&words::conditions(margins));
-    words::note(margins).iter().for_each(|note| sheet.paragraph(note));
+    sheet.paragraph(&words::note(margins));
     for found in robust::asked(margins) {
         let sentence = wrapped(&robust::sentence(found, margins, true), WIDTH).join("\n");
         sheet.table(None, sentence, robust::table(found, " at ").within(WIDTH));
     }
-    sheet.table(None, "", table(margins).within(WIDTH));
+    sheet.table(None, "", table(margins, |name| name.to_string()).within(WIDTH));
     if let Some(found) = &margins.target {
         sheet.paragraph(&words::target(found, margins));
         // A command to copy is not wrapped.

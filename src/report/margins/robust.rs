@@ -3,7 +3,7 @@
 use super::words::from_here;
 use crate::report::number::{count, micro, rounded, scaled, short, with_unit};
 use crate::report::table::{Heading, Table, TableCell};
-use rubscope_solver::scene::{ContactLaw, keys};
+use rubscope_solver::scene::ContactLaw;
 use rubscope_solver::study::margins::{
     ChangedVerdict, Limit, LimitName, Margins, Robustness, VerdictChange, parameter,
 };
@@ -56,12 +56,6 @@ pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
         }
         None => "no change found".into(),
     });
-    let pulse = found.changes.iter().find(|row| row.path == keys::PULSE && row.present != 0.0);
-    if let Some(row) = pulse.filter(|row| row.below.is_none() && row.above.is_none()) {
-        let [from, to] = row.tried.map(|tried| short(rounded(tried / row.present, 3)));
-        parts
-            .push(format!("no pulse tried from {from} to {to} times this one changes the verdict"));
-    }
     let mut ends = found.changes.iter().flat_map(|row| [row.below, row.above]).flatten();
     let foot = if ends.any(|end| end.sensitive) { MARKED } else { "" };
     format!("{}.{foot}", parts.join("; "))

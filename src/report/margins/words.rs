@@ -10,11 +10,6 @@ use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Qua
 /// Relative change above which the ratio of both values is shown (`10 x`) instead of per cent.
 const FACTORS: f64 = 9.0;
 
-/// Formats the value of a limit, in SI units, with `digits` significant digits and its unit.
-pub fn value(x: f64, digits: usize, quantity: Quantity) -> String {
-    with_unit(x, digits, quantity.unit())
-}
-
 /// Formats the change from a value of the scene to another one, as a part of the former: in per
 /// cent, or as the ratio of both if it is large.
 pub fn from_here(part: f64) -> String {
@@ -57,7 +52,7 @@ pub fn conditions(margins: &Margins) -> String {
     format!(
         "{}, pulse of {} for {}, {}; {} law, {} solver, {} model.",
         speed(operation.speed_rad_s),
-        value(operation.pulse_n, 6, Quantity::Pulse),
+        with_unit(operation.pulse_n, 6, "N"),
         time(operation.pulse_s),
         count(u64::from(operation.nodal_diameters), "nodal diameter"),
         solver.contact,
@@ -66,13 +61,12 @@ pub fn conditions(margins: &Margins) -> String {
     )
 }
 
-/// Returns the notes on the modes of the scene and on what its closed-form limits ignore; `None` if
+/// Returns the notes on the modes of the scene and on what its closed-form limits ignore; empty if
 /// there are none.
-pub fn note(margins: &Margins) -> Option<String> {
+pub fn note(margins: &Margins) -> String {
     let tuned = margins.note.as_ref().map(|note| format!("Speeds and loads are {note}."));
     let modes = margins.scene.modes_note().map(|note| format!("{}.", capital(&note)));
-    let notes: Vec<String> = modes.into_iter().chain(tuned).collect();
-    (!notes.is_empty()).then(|| notes.join(" "))
+    modes.into_iter().chain(tuned).collect::<Vec<_>>().join(" ")
 }
 
 /// Returns the answer to `--target` as a sentence: the parameter value at which the limit has the
@@ -80,9 +74,9 @@ pub fn note(margins: &Margins) -> Option<String> {
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
     let changed = parameter(by);
-    let (quantity, unit) = (name.quantity(), changed.map_or("", |by| by.unit()));
+    let (of_limit, unit) = (name.quantity().unit(), changed.map_or("", |by| by.unit()));
     let unit = if unit == "-" { "" } else { unit };
-    let wanted = value(found.wanted, 6, quantity);
+    let wanted = with_unit(found.wanted, 6, of_limit);
     let parameter = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
     let Some(to) = found.to else {
         let [least, most] = found.tried.map(parameter);
@@ -91,7 +85,7 @@ pub fn target(found: &Found, margins: &Margins) -> String {
                 "No value of {by} was found for {name}: it could not be followed from that of the scene, {least}."
             );
         }
-        let met = match found.met.map(|ends| ends.map(|end| value(end, 6, quantity))) {
+        let met = match found.met.map(|ends| ends.map(|end| with_unit(end, 6, of_limit))) {
             Some([least, most]) if least == most => "it does not depend on it".to_string(),
             Some([least, most]) => format!("it goes from {least} to {most}"),
             None => "there is no such limit with any of them".to_string(),
@@ -100,7 +94,9 @@ pub fn target(found: &Found, margins: &Margins) -> String {
     };
     let before = margins.limit(name).and_then(|limit| limit.value);
     let gives = match before {
-        Some(before) => format!("{} gives {}", parameter(found.from), value(before, 6, quantity)),
+        Some(before) => {
+            format!("{} gives {}", parameter(found.from), with_unit(before, 6, of_limit))
+        }
         None => format!("the scene has {}", parameter(found.from)),
     };
     let line = changed.and_then(|by| by.line(&margins.scene, to));
@@ -123,23 +119,15 @@ pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
         }
         return Some(CommandLine::new("run", &changed));
     }
-    let hbm = CommandLine::new("hbm", &changed);
-    let speed = changed.operation.speed_rad_s;
-    Some(match found.name {
-        LimitName::OmegaLock | LimitName::LockEnds if changed.lining().is_some() => {
-            hbm.option("--speed", speed).flag("--smooth", true)
-        }
-        LimitName::OmegaC | LimitName::OmegaLock | LimitName::LockEnds | LimitName::Coincidence => {
-            hbm
-        }
-        LimitName::OmegaAdhesive => hbm.flag("--json", true),
-        LimitName::Torque | LimitName::Power => hbm.option("--speed", speed).flag("--json", true),
-        LimitName::CoincidenceDifference => hbm.flag("--campbell", true),
-        LimitName::WhirlOnset | LimitName::FlutterSpeed => {
-            hbm.option("--speed", speed).flag("--whirl", true)
-        }
-        _ => hbm.option("--speed", speed),
-    })
+    let view = match found.name {
+        LimitName::OmegaLock | LimitName::LockEnds if changed.lining().is_some() => "--smooth",
+        LimitName::CoincidenceDifference => "--campbell",
+        LimitName::WhirlOnset | LimitName::FlutterSpeed => "--whirl",
+        LimitName::OmegaAdhesive | LimitName::Torque | LimitName::Power => "--json",
+        _ => "",
+    };
+    let hbm = CommandLine::new("hbm", &changed).option("--speed", changed.operation.speed_rad_s);
+    Some(hbm.flag(view, !view.is_empty()))
 }
 
 /// The verifying run uses this multiple of the smallest pulse: at the limit itself, round-off

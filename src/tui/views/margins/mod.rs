@@ -52,7 +52,7 @@ impl ViewPanel for MarginsView {
             false => 0,
         };
         let above = Rect { y: above.y + head, height: above.height - head, ..above };
-        let table = margins::titled(&live.margins, |name| name.titles()[1].to_string());
+        let table = margins::table(&live.margins, |name| name.titles()[1].to_string());
         let drawn = Rows {
             table: spelled(app, table),
             cursor: [LEADING, COLUMNS as usize],
@@ -140,7 +140,7 @@ mod tests {
         let mut app = app();
         let (live, _) = app.margins().unwrap();
         let mut bytes = Vec::new();
-        margins::table(&live.margins).write_csv(&mut bytes).unwrap();
+        margins::table(&live.margins, |name| name.to_string()).write_csv(&mut bytes).unwrap();
         assert_eq!(MarginsView.file(&app, "csv").unwrap().into_bytes(), bytes);
         app.run.latest.results.found.margins = None;
         assert_eq!(MarginsView.file(&app, "csv"), Err("there is no data yet".into()));

@@ -4,6 +4,7 @@
 use ratatui::style::Style;
 
 use crate::report::margins::{STRONGEST, words};
+use crate::report::number::with_unit;
 use crate::tui::app::App;
 use crate::tui::command::Command;
 use crate::tui::knobs::{KNOBS, knob_of, place_of};
@@ -18,7 +19,7 @@ pub const DIGITS: usize = 5;
 
 /// Formats the value of a limit with its unit.
 fn value_text(value: f64, quantity: Quantity) -> String {
-    words::value(value, DIGITS, quantity)
+    with_unit(value, DIGITS, quantity.unit())
 }
 
 /// Returns why a limit has no value; `None` if it has one.
