@@ -1,15 +1,18 @@
 //! View 7: computing time against error of every solver on this scene, one letter per series, as in
 //! `rubscope precision`.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::{Clear, Widget};
 
-use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use super::ViewId;
+use super::chart::Chart;
+use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
 use crate::report::Sheet;
 use crate::report::number::count;
 use crate::report::precision::{decades, letter, place, reference_words, series, sheet};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
-use crate::tui::plot::Plot;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::SolverKind;
@@ -27,7 +30,7 @@ impl ViewPanel for PrecisionView {
             SolverKind::Explicit => Role::Second,
         };
         let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
-        let mut inside = title(app, buffer, at, "precision", &axes);
+        let inside = title(app, buffer, at, "precision", &axes);
         if let Err(error) = Measure::check(&app.scene, Effort::QUICK) {
             print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
             print(buffer, inside, 2, &error.to_string(), quiet);
@@ -38,10 +41,8 @@ impl ViewPanel for PrecisionView {
         };
         let caption = inside;
         let (note, role) = note(report);
-        for line in wrap(&note, usize::from(inside.width)) {
-            print(buffer, inside, 0, &line, look.style(role));
-            inside = Rect { y: inside.y + 1, height: inside.height.saturating_sub(1), ..inside };
-        }
+        let lines = wrap(&note, usize::from(inside.width).saturating_sub(1));
+        let inside = lines_above(app, buffer, inside, &lines, role);
         // A logarithmic axis has no zero, and no position for a run without an error.
         let placed = report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         let points = placed.filter(|((_, error), _)| *error > 0.0);
@@ -59,31 +60,28 @@ impl ViewPanel for PrecisionView {
         let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
         let (x, y) = (ChartAxis::powers(left, right, None), ChartAxis::powers(bottom, top, None));
         let mut reading = None;
-        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-        at.note(app, plot.inner);
-        let cursor =
-            app.reading.cursor.filter(|_| at.large).map(|at| (x.at(at.across), y.at(at.up)));
-        if let Some(cursor) = cursor {
-            plot.point(cursor.0, cursor.1, '+', look.style(Role::Focus));
+        let mut chart = Chart::new(x, y);
+        let cursor = app.cursor_in(ViewId::Precision).filter(|_| at.large);
+        if let Some(cursor) = cursor.map(|at| (x.at(at.across), y.at(at.up))) {
+            chart.points.push((cursor.0, cursor.1, '+', look.style(Role::Focus)));
             // Distances are relative to the lengths of the axes.
             let [wide, high] = [right - left, top - bottom];
             let far = |(x, y): (f64, f64)| ((x - cursor.0) / wide).hypot((y - cursor.1) / high);
             let nearest = points.iter().min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
-            if let Some((_, row)) = nearest {
-                reading = Some(told(row));
-            }
+            reading = nearest.map(|(_, row)| told(row));
         }
-        for ((x, y), row) in &points {
+        chart.points.extend(points.iter().map(|((x, y), row)| {
             let (sign, role) = match row.is_wrong() {
                 true => ('!', Role::Trouble),
                 false => (letter(&row.way), hue(&row.way)),
             };
-            plot.point(*x, *y, sign, look.style(role));
-        }
+            (*x, *y, sign, look.style(role))
+        }));
+        chart.draw(app, buffer, at, inside);
         if let Some(reading) = reading {
-            let blank = " ".repeat(usize::from(caption.width));
-            (0..inside.y - caption.y).for_each(|row| print(buffer, caption, row, &blank, quiet));
-            print(buffer, caption, 0, &look.spell(&reading), look.style(Role::Focus));
+            let caption = Rect { height: inside.y - caption.y, ..caption };
+            Clear.render(caption, buffer);
+            lines_above(app, buffer, caption, &[look.spell(&reading)], Role::Focus);
         }
     }
 
