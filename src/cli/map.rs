@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use rayon::prelude::*;
 
-use super::options::{SceneOptions, Swept};
+use super::options::{SceneOptions, Swept, note_adjusted};
 use super::output::OutputOptions;
 use super::range::Range;
 use super::sign;
@@ -123,13 +123,13 @@ impl MapCommand {
         let scene = resolved.scene;
         // The default range ends at a round number in the unit shown.
         let fastest = if self.options.in_rpm() { from_shown(5000.0, "rad/s") } else { 500.0 };
-        let plan = MapPlan {
+        let mut plan = MapPlan {
             x: axis(&self.x, keys::SPEED, resolved.speeds, 0.0, fastest, COLUMNS)?,
             y: axis(&self.y, keys::PULSE, resolved.pulses, 0.0, 1e6, ROWS)?,
             scene: scene.into_scene(),
             sensitivity: !self.no_sensitivity,
         };
-        plan.check()?;
+        note_adjusted(&plan.make_compatible(|key| self.options.sets(key))?);
         Ok(plan)
     }
 

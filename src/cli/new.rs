@@ -139,15 +139,6 @@ impl NewCommand {
                 modes.push(family(option, text)?);
             }
             modes.sort_by_key(|mode| mode.nodal_diameters);
-            let twice = modes.windows(2).find_map(|pair| match pair {
-                [a, b] if a.nodal_diameters == b.nodal_diameters => Some(a),
-                _ => None,
-            });
-            if let Some(mode) = twice {
-                let given = format!("{} nodal diameters twice", mode.nodal_diameters);
-                let allowed = "one mode for each number of diameters";
-                return Err(Refusal::of(option, given, allowed).into());
-            }
         }
         let first = casing.first().map(|mode| mode.nodal_diameters.to_string());
         let counted = |option, key| move |text: &str| Ok(number(option, text, key)? as u32);

@@ -145,8 +145,7 @@ impl SceneOptions {
                 |modes: &toml::Value| modes.as_array().is_some_and(|all| all.iter().all(has));
             let part = table.get(part);
             let in_file = part.is_some_and(|of| has(of) || of.get("modes").is_some_and(every));
-            let named = self.named().into_iter().any(|(_, of, text)| of == key && text.is_some());
-            if !(in_file || named || self.set.iter().any(|set| set.trim().starts_with(key))) {
+            if !(in_file || self.sets(key)) {
                 note(format!("rubscope: {key}: {value} is assumed ({option})"));
             }
         }
@@ -170,7 +169,6 @@ impl SceneOptions {
 
     fn apply(&self, mut scene: Scene, swept: Swept) -> anyhow::Result<Resolved> {
         tell_in_rpm(self.rpm);
-        let mut given = Vec::new();
         let (mut speeds, mut pulses) = (None, None);
         for (option, key, text) in self.named() {
             let Some(text) = text else { continue };
@@ -198,17 +196,14 @@ impl SceneOptions {
                 }
                 None => scene.set(key, text)?,
             }
-            given.push(key);
         }
         for assignment in &self.set {
             let (key, text) = assignment.split_once('=').ok_or_else(|| {
                 Refusal::of("--set", assignment, "PATH=VALUE, such as bladed_disk.blades=24")
             })?;
-            let key = key.trim();
-            scene.set(key, text)?;
-            given.push(key);
+            scene.set(key.trim(), text)?;
         }
-        let made = scene.make_compatible(|key| given.contains(&key));
+        let made = scene.make_compatible(|key| self.sets(key));
         for (key, range) in [(keys::SPEED, speeds), (keys::PULSE, pulses)] {
             if let Some(range) = range {
                 let mut last = scene.clone();
@@ -220,8 +215,15 @@ impl SceneOptions {
         if !swept.speed {
             scene.slides()?;
         }
-        made.iter().for_each(|made| note(followed(made)));
+        note_adjusted(&made);
         Ok(Resolved { scene, speeds, pulses })
+    }
+
+    /// Returns whether an option sets this key.
+    pub(super) fn sets(&self, key: &str) -> bool {
+        let is_named = self.named().into_iter().any(|(_, of, text)| of == key && text.is_some());
+        let name = |set: &String| set.split('=').next().is_some_and(|name| name.trim() == key);
+        is_named || self.set.iter().any(name)
     }
 
     /// Returns the name of every option that sets exactly one key, and that key.
@@ -261,10 +263,11 @@ pub(super) fn read_scene(name: &str) -> Result<Scene, SceneError> {
     Scene::load_unchecked(name)
 }
 
-/// Returns the message about a key that was changed because another option requires it.
-fn followed(made: &Adjustment) -> String {
-    let Adjustment { key, from, to, why } = made;
-    format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}")
+/// Notes each key that was changed because another one requires it.
+pub(super) fn note_adjusted(made: &[Adjustment]) {
+    for Adjustment { key, from, to, why } in made {
+        note(format!("rubscope: took {key} = {to:?} instead of the scene's {from:?}, which {why}"));
+    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! Errors of the frequency domain, each in one line with the key, its value and what is allowed.
 
-use crate::scene::keys;
 use thiserror::Error;
 
 use crate::model::{ContactPolygon, Machine};
+use crate::numeric::rounding::rounded;
+use crate::scene::keys;
 
 /// An input that the frequency domain cannot treat, or a solution that was not found.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -103,8 +104,9 @@ pub(super) fn refuse_tips_on_casing(machine: &Machine, what: &str) -> Result<(),
 /// Rejects an interference fit, with which rigid contact has no solution.
 pub(super) fn refuse_preload(machine: &Machine) -> Result<(), HarmonicError> {
     let clearance = machine.clearance();
-    let allowed = "above 0 for rigid contact (casing.radius_m above bladed_disk.blade_length_m)";
-    refuse_unless(clearance > 0.0, "clearance", clearance, allowed)
+    let allowed = "above 0 for rigid contact (casing.radius_m less bladed_disk.blade_length_m)";
+    let value = format!("{} m", rounded(clearance, 9));
+    refuse_unless(clearance > 0.0, keys::CLEARANCE, value, allowed)
 }
 
 /// Rejects disk modes with other nodal diameters than the casing's: no single harmonic balances

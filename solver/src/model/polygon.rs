@@ -106,12 +106,6 @@ impl ContactPolygon {
         self.sides >= 3
     }
 
-    /// Returns whether all sides have the same apothem.
-    #[must_use]
-    pub fn is_regular(&self) -> bool {
-        self.longer.is_empty()
-    }
-
     /// Returns the apothem of a side divided by the clearance; 1 for equal tips.
     #[must_use]
     pub fn relative_apothem(&self, side: u32) -> f64 {

@@ -5,6 +5,7 @@ use super::error::refuse_if;
 use super::keys;
 use super::units::{self, RangeError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use crate::numeric::rounding::rounded;
 
 /// Part of a step by which the end of a run may fall short of a whole number of steps by round-off.
 /// With a smaller value a run could end one step early.
@@ -65,18 +66,16 @@ pub(crate) fn is_speed_range([from, to]: [f64; 2]) -> bool {
 }
 
 fn clearance(scene: &Scene) -> Result<(), SceneError> {
-    let length = scene.bladed_disk.blade_length_m;
-    let smooth = scene.solver.contact == ContactLaw::Smooth;
+    let (clearance, smooth) = (scene.clearance(), scene.solver.contact == ContactLaw::Smooth);
     let allowed = if smooth {
-        format!("other than bladed_disk.blade_length_m = {length}")
+        "other than 0 (casing.radius_m less bladed_disk.blade_length_m)"
     } else {
-        format!(
-            "above bladed_disk.blade_length_m = {length}, so that there is a clearance, or any \
-             other with solver.contact = \"smooth\", whose lining blades may press at rest"
-        )
+        "above 0 (casing.radius_m less bladed_disk.blade_length_m), or any other than 0 with \
+         solver.contact = \"smooth\", whose lining blades may press at rest"
     };
-    let has_room = scene.clearance() > 0.0 || (smooth && scene.clearance() < 0.0);
-    refuse_if(!has_room, keys::CASING_RADIUS, scene.casing.radius_m, &allowed)
+    let has_room = clearance > 0.0 || (smooth && clearance < 0.0);
+    // Without the round-off of the difference.
+    refuse_if(!has_room, keys::CLEARANCE, format!("{} m", rounded(clearance, 9)), allowed)
 }
 
 /// Rejects rigid contact if blade growth closes the clearance during the run.
@@ -140,13 +139,10 @@ fn initial_state(scene: &Scene) -> Result<(), SceneError> {
 }
 
 fn excitation(scene: &Scene) -> Result<(), SceneError> {
-    let amplitude = scene.excitation.amplitude_nm;
-    let allowed = match (scene.solver.kind, scene.solver.model) {
-        (SolverKind::Event, _) => return check_no_excitation(scene),
-        (_, ModelSize::Modal | ModelSize::Full) => return Ok(()),
-        (_, ModelSize::Rigid) => "0 with solver.model = \"rigid\", whose blades do not move",
-    };
-    refuse_if(amplitude != 0.0, keys::EXCITATION, amplitude, allowed)
+    let (amplitude, solver) = (scene.excitation.amplitude_nm, &scene.solver);
+    let stands = solver.kind == SolverKind::Explicit && solver.model == ModelSize::Rigid;
+    let allowed = "0 with solver.model = \"rigid\", whose blades do not move";
+    refuse_if(stands && amplitude != 0.0, keys::EXCITATION, amplitude, allowed)
 }
 
 /// Rejects a step that is too long or too short. Each printed bound is itself accepted.
@@ -242,18 +238,13 @@ fn unit(x: f64) -> f64 {
     if x == 0.0 || !x.is_finite() { 0.0 } else { 10_f64.powf(x.abs().log10().floor() - 3.0) }
 }
 
-/// Rejects a blade excitation in the event solver.
-fn check_no_excitation(scene: &Scene) -> Result<(), SceneError> {
-    let some = scene.excitation.amplitude_nm;
-    refuse_if(some != 0.0, keys::EXCITATION, some, "0 with solver.kind = \"event\"")
-}
-
 /// Rejects what the event solver does not support.
 ///
 /// # Errors
 /// The scene has an excitation, a law other than the unilateral one, or the full model.
 pub(super) fn event(scene: &Scene) -> Result<(), SceneError> {
-    check_no_excitation(scene)?;
+    let some = scene.excitation.amplitude_nm;
+    refuse_if(some != 0.0, keys::EXCITATION, some, "0 with solver.kind = \"event\"")?;
     let law = scene.solver.contact;
     if let Some(why) = law.lacks_events() {
         let allowed = format!("\"unilateral\" with solver.kind = \"event\" ({why})");

@@ -138,7 +138,7 @@ impl Scene {
                 by_steps.solver.kind = SolverKind::Explicit;
                 if by_steps.checked().is_ok() {
                     *self = by_steps;
-                    let why = "cannot do what the options ask";
+                    let why = "cannot do this";
                     made.push(Adjustment { key: KIND, from: "event", to: "explicit", why });
                 }
             }

@@ -16,6 +16,9 @@ pub enum SceneError {
         /// Existing keys of the same table.
         allowed: String,
     },
+    /// The key has no name.
+    #[error("the name of the key before = is missing")]
+    NoKey,
     /// The value is not allowed.
     #[error("{key} = {value}: allowed is {allowed}")]
     Refused {

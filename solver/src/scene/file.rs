@@ -8,6 +8,7 @@ use std::path::Path;
 use toml::{Table, Value as Toml};
 
 use super::builtin::unknown;
+use super::error::refuse_if;
 use super::units::UnitError;
 use super::{Allowed, BUILTIN, Key, Scene, SceneError, Value, keys, modes};
 
@@ -73,7 +74,7 @@ impl Scene {
         let mut scene = Self::base();
         for (name, value) in &table {
             if name == "schema" {
-                check_schema(value)?;
+                refuse_if(value.as_integer() != Some(1), name, one_line(value), "1")?;
             } else if let Toml::Table(inner) = value {
                 // Modes are read last: a mode's frequency refers to the mass in the same table.
                 let (modes, plain): (Vec<_>, Vec<_>) =
@@ -159,14 +160,6 @@ fn as_toml(value: &Value) -> Toml {
         Value::Text(text) => Toml::String(text.clone()),
         Value::Words(words) => Toml::Array(words.iter().cloned().map(Toml::String).collect()),
         Value::Numbers(list) => Toml::Array(list.iter().copied().map(Toml::Float).collect()),
-    }
-}
-
-fn check_schema(value: &Toml) -> Result<(), SceneError> {
-    if value.as_integer() == Some(1) {
-        Ok(())
-    } else {
-        Err(SceneError::refused("schema", one_line(value), "1"))
     }
 }
 

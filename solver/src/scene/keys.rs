@@ -275,6 +275,9 @@ pub fn find_varied(path: &str) -> Result<&'static Key, SceneError> {
 
 /// Returns the error for an unknown key; it lists the keys of the same table.
 pub(super) fn unknown(path: &str) -> SceneError {
+    if path.is_empty() {
+        return SceneError::NoKey;
+    }
     let table = path.split_once('.').map_or("", |(table, _)| table);
     let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;
     let mut names: Vec<&str> = KEYS.iter().filter(of_table).map(|key| key.path).collect();

@@ -217,7 +217,7 @@ impl Quantity {
     fn scale(self, written: &str) -> Option<(i32, f64)> {
         let of_unit = UNITS.iter().filter(|unit| unit.quantity == self).find_map(|unit| {
             let prefix = written.strip_suffix(plain(unit.name).as_str());
-            // RPM and hz are accepted too, since they cannot mean anything else.
+            // RPM, hz and Kg are accepted too, since they cannot mean anything else.
             let prefix = prefix.or_else(|| any_case(unit, written));
             match prefix? {
                 "" => Some((unit.power, unit.factor)),
@@ -275,13 +275,13 @@ fn accepted_units(quantity: Quantity) -> String {
     format!("it takes {}", quantity.units())
 }
 
-/// Returns the prefix before a unit of speed, ignoring case; `None` for a unit of another quantity,
+/// Returns the prefix before a unit of speed or the kilogram, ignoring case; `None` for another unit,
 /// and for text that does not end with the unit.
 fn any_case<'a>(unit: &Unit, written: &'a str) -> Option<&'a str> {
     let at = written.len().checked_sub(unit.name.len())?;
     let (prefix, name) = written.split_at_checked(at)?;
-    let known = unit.quantity == Speed && unit.name.eq_ignore_ascii_case(name);
-    known.then_some(prefix)
+    let known = unit.quantity == Speed || unit.name == "kg";
+    (known && unit.name.eq_ignore_ascii_case(name)).then_some(prefix)
 }
 
 fn power_of(prefix: &str) -> Option<i32> {

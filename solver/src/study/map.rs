@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::Axis;
 use crate::motion::{Certainty, GoOn, Verdict, run_to_verdict, run_with_certainty};
 use crate::scene::keys::{CASING_RADIUS, CLEARANCE};
-use crate::scene::{CheckedScene, Scene, SceneError};
+use crate::scene::{Adjustment, CheckedScene, Scene, SceneError, SolverChoice};
 
 /// Largest number of cells, about 4000 x 4000, which take days to compute.
 const MOST_CELLS: usize = 16_000_000;
@@ -65,13 +65,38 @@ impl MapPlan {
     /// # Errors
     /// The combination of values is not allowed.
     pub fn scene_of(&self, index: usize) -> Result<CheckedScene, SceneError> {
+        self.cell(index)?.checked()
+    }
+
+    fn cell(&self, index: usize) -> Result<Scene, SceneError> {
         let mut scene = self.scene.clone();
         let columns = self.x.count as usize;
         let mut axes = [(&self.x, index % columns), (&self.y, index / columns)];
         // The clearance is beyond the blade length of the cell.
         axes.sort_by_key(|(axis, _)| axis.path == CLEARANCE);
         axes.iter().try_for_each(|(axis, place)| axis.apply(&mut scene, *place as u32))?;
-        scene.checked()
+        Ok(scene)
+    }
+
+    /// Changes solver, contact law and model of the scene so that they are compatible with both
+    /// axes and with the keys that the user set (`asked`), and checks the plan. Returns what was
+    /// changed.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub fn make_compatible(
+        &mut self,
+        asked: impl Fn(&str) -> bool,
+    ) -> Result<Vec<Adjustment>, SceneError> {
+        let mut made = Vec::new();
+        for end in [0, self.len() - 1] {
+            let mut cell = self.cell(end)?;
+            let is_axis = |key: &str| self.x.path == key || self.y.path == key;
+            made.extend(cell.make_compatible(|key| asked(key) || is_axis(key)));
+            let SolverChoice { kind, contact, model, .. } = cell.solver;
+            self.scene.solver = SolverChoice { kind, contact, model, ..self.scene.solver };
+        }
+        self.check().map(|()| made)
     }
 
     fn check_size(&self) -> Result<(), SceneError> {
@@ -97,12 +122,8 @@ impl MapPlan {
         }
         let paths = [self.x.path.as_str(), self.y.path.as_str()];
         if [CLEARANCE, CASING_RADIUS].iter().all(|path| paths.contains(path)) {
-            let both = paths.join(" and ");
-            return Err(SceneError::refused(
-                "map",
-                both,
-                "one of them: the radius sets the clearance",
-            ));
+            let allowed = "one of them: the radius sets the clearance";
+            return Err(SceneError::refused("map", paths.join(" and "), allowed));
         }
         let (columns, cells) = (self.x.count as usize, self.len());
         for corner in [0, columns - 1, cells - columns, cells - 1] {

@@ -20,7 +20,7 @@ pub const COMPLIANCE: View = View {
     one_speed: true,
     // The compliance belongs to the structures, with or without a preload.
     contact: ViewContact::Rigid(|error| {
-        matches!(error, HarmonicError::Refused { key: keys::CASING_RADIUS, .. })
+        matches!(error, HarmonicError::Refused { key: keys::CLEARANCE, .. })
     }),
     fill,
 };

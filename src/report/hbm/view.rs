@@ -2,7 +2,7 @@
 //! assumptions behind the numbers.
 
 use crate::report::line::capital;
-use crate::report::number::{count, short, span, speed};
+use crate::report::number::{count, rounded, short, span, speed};
 use crate::report::{CommandLine, Sheet};
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Locked, lock_window};
 use rubscope_solver::model::{LockWindow, Machine};
@@ -87,13 +87,9 @@ impl<'a> Request<'a> {
         let Self { form, damped, pair, speeds, .. } = *self;
         if self.scene.clearance() <= 0.0 {
             // The limit of rigid contact needs a clearance.
-            let allowed = format!(
-                "above bladed_disk.blade_length_m = {} here: hbm --smooth has the steady states of \
-                 a preloaded lining",
-                self.scene.bladed_disk.blade_length_m
-            );
-            let radius = self.scene.casing.radius_m;
-            return Err(HarmonicError::refused(keys::CASING_RADIUS, radius, allowed));
+            let allowed = "above 0 here: hbm --smooth has the steady states of a preloaded lining";
+            let clearance = format!("{} m", rounded(self.scene.clearance(), 9));
+            return Err(HarmonicError::refused(keys::CLEARANCE, clearance, allowed));
         }
         let corner = Corner::of(&self.machine, speeds.last().copied().unwrap_or(1.0), pair)?;
         Locked::new(&self.machine, corner, form, damped)

@@ -99,44 +99,18 @@ impl Knob {
         value: Value,
     ) -> Result<(CheckedScene, Option<String>), SceneError> {
         let mut changed = scene.clone();
-        if self.path == CLEARANCE && value == Value::Real(0.0) {
-            let allowed = "a number above 0, or below 0 with solver.contact = \"smooth\"";
-            return Err(SceneError::refused(self.path, value, allowed));
-        }
         changed.set_value(self.key, value)?;
         let made = changed.make_compatible(|key| key == self.path);
-        let said = self.followed(&made, changed.solver.contact);
+        let said = made.iter().map(|Adjustment { key, from, to, why }| {
+            let key = key.trim_end_matches(".kind").trim_start_matches("solver.");
+            format!("{key} is now {to}, not {from}, which {why}")
+        });
+        let said = Some(said.collect::<Vec<_>>().join("; ")).filter(|said| !said.is_empty());
         let changed = changed.checked()?;
         if scene.slides().is_ok() {
             changed.slides()?;
         }
         Ok((changed, said))
-    }
-
-    /// Returns the message about keys that changed together with this knob; `None` if none did.
-    fn followed(&self, made: &[Adjustment], law: ContactLaw) -> Option<String> {
-        let first = made.first()?;
-        Some(match (first.key, self.path) {
-            (keys::SOLVER, keys::LAW) if law == ContactLaw::Smooth => {
-                "solver is now explicit: a lining has no events".into()
-            }
-            (keys::SOLVER, keys::LAW) => {
-                "solver is now explicit: bilateral is a law of the time step".into()
-            }
-            (_, keys::RADIAL_COUPLING) => {
-                "contact is now unilateral: the bilateral law takes no inclined tips".into()
-            }
-            (keys::SOLVER, _) => {
-                "solver is now explicit: the event solver has no full model".into()
-            }
-            _ => {
-                let now = |made: &Adjustment| {
-                    format!("{} is now {}", made.key.trim_start_matches("solver."), made.to)
-                };
-                let now: Vec<String> = made.iter().map(now).collect();
-                format!("{}: the event solver knows no other", now.join(", "))
-            }
-        })
     }
 
     /// Returns the value one step above or below `value`, within the bounds of the knob.

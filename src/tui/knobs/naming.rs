@@ -41,7 +41,9 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     }
     let is_one = typed.chars().count() == 1;
     let symbols = [knob.symbol(), plain.split(' ').next_back().unwrap_or_default()];
-    if symbols.iter().any(|own| *own == typed || (!is_one && own.to_lowercase() == lower)) {
+    let joined = lower.replace('_', "");
+    let is_like = |own: &str| !is_one && own.to_lowercase().replace('_', "") == joined;
+    if symbols.iter().any(|own| *own == typed || is_like(own)) {
         return Some(Fit::Symbol);
     }
     let own = || label.split(' ').chain(spelled.split(' '));
@@ -51,7 +53,7 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     let key = knob.path.split(['.', '_']).filter(|word| !UNITS.contains(word));
     let names: Vec<&str> = own().chain(key).chain([law, knob.path]).collect();
     let begins = |word: &&str| names.iter().any(|name| name.starts_with(&word.to_lowercase()));
-    (!words.is_empty() && words.iter().all(begins)).then_some(Fit::Begins)
+    words.iter().all(begins).then_some(Fit::Begins)
 }
 
 /// Returns the knob that the typed words name best, and how well; `None` if they name none.
@@ -96,24 +98,20 @@ impl Knob {
         let own = key == self.path;
         // False if the error comes from `parse` itself: the text is not a value at all.
         let reads = self.parse(value).err().as_ref() != Some(error);
-        match self.allowed() {
-            Allowed::OneOf(_) if own && !reads => {
-                format!("{}: {value} is unknown; {}", self.label, self.range_words())
-            }
-            Allowed::Whole { .. } if own && !reads => {
-                format!("{}: {value} is no whole number; {}", self.label, self.range_words())
-            }
-            Allowed::Real { .. } if own && !reads => {
-                format!("{}: {value} is not a number; {}", self.label, self.range_words())
-            }
-            own_range if own && *allowed == own_range.to_string() => {
-                let value = match (value.parse::<f64>(), self.bounds_unit()) {
-                    (Ok(x), (factor, _)) if factor != 1.0 => exact(rounded(factor * x, 9)),
-                    _ => value.clone(),
-                };
-                format!("{}: {value} is not possible; {}", self.label, self.range_words())
-            }
-            _ => format!("{}: {value} is not possible; allowed is {}", words(key), words(allowed)),
+        if !own || (reads && *allowed != self.allowed().to_string()) {
+            let (key, allowed) = (words(key), words(allowed));
+            return format!("{key}: {value} is not possible; allowed is {allowed}");
         }
+        let shown = match (value.parse::<f64>(), self.bounds_unit()) {
+            (Ok(x), (factor, _)) if factor != 1.0 => exact(rounded(factor * x, 9)),
+            _ => value.clone(),
+        };
+        let why = match self.allowed() {
+            _ if reads => "is not possible",
+            Allowed::OneOf(_) => "is unknown",
+            Allowed::Whole { .. } => "is no whole number",
+            _ => "is not a number",
+        };
+        format!("{}: {shown} {why}; {}", self.label, self.range_words())
     }
 }

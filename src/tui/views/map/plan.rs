@@ -5,19 +5,15 @@ use std::f64::consts::TAU;
 
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
-use crate::tui::views::steady::locked_curves::speed_range;
+use crate::tui::views::locked::curves::speed_range;
 use rubscope_solver::motion::Verdict;
-use rubscope_solver::scene::{Allowed, ContactLaw, Scene, SolverKind, keys};
+use rubscope_solver::scene::{Allowed, ContactLaw, Scene, keys};
 use rubscope_solver::study::overlay::{Curve, threshold_curves};
 use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 
 /// Largest number of cells on the x and y axis. On the y axis, four decades of pulse have ten cells
 /// each.
 const CELLS: [u32; 2] = [81, 41];
-/// Key of the engine-order torque on the blades.
-const TORQUE: &str = keys::EXCITATION;
-/// Key of the friction between blades and casing.
-const FRICTION: &str = keys::FRICTION;
 /// Lowest speed of a map with friction, as a fraction of the highest.
 const SLOWEST: f64 = 0.1;
 /// Ends of the axis of the pulse \[N\]; the lower end is reduced for a scene with a smaller pulse.
@@ -71,17 +67,10 @@ impl MapChoice {
     /// One line that says why the scene has no such map.
     pub fn plan(&self, scene: &Scene) -> Result<MapPlan, String> {
         let mut scene = scene.clone();
-        if let Some(law) = self.law {
-            scene.solver.contact = law;
-            scene.make_compatible(|key| key == keys::LAW);
-        }
-        if [self.x, self.y].iter().any(|axis| axis.path == TORQUE) {
-            // The event solver does not support a torque on the blades.
-            scene.solver.kind = SolverKind::Explicit;
-        }
+        scene.solver.contact = self.law.unwrap_or(scene.solver.contact);
         // Friction has no direction at standstill.
         let slides = scene.contact.friction != 0.0
-            || [self.x, self.y].iter().any(|axis| axis.path == FRICTION);
+            || [self.x, self.y].iter().any(|axis| axis.path == keys::FRICTION);
         let plan = |without: f64| {
             let unit = if self.rpm { TAU / 60.0 } else { 1.0 };
             let x = self.x.over(&scene, CELLS[0], slides, without, unit)?;
@@ -92,8 +81,9 @@ impl MapChoice {
                 // keeps the map.
                 axis.apply(&mut scene, 0).map_err(|error| error.to_string())?;
             }
-            let plan = MapPlan { scene, x, y, sensitivity: false };
-            plan.check().map(|()| plan).map_err(|error| error.to_string())
+            let mut plan = MapPlan { scene, x, y, sensitivity: false };
+            let made = plan.make_compatible(|key| self.law.is_some() && key == keys::LAW);
+            made.map(|_| plan).map_err(|error| error.to_string())
         };
         plan(0.0).or_else(|_| plan(REFUSED))
     }
@@ -134,6 +124,8 @@ impl MapAxis {
                 (to, log) = (PULSES[1], true);
             }
             keys::STEP => to = to.min(0.9 * scene.stable_step()),
+            // Without lobes a casing is round, whatever their height.
+            keys::LOBES => from = 1.0,
             _ => {}
         }
         let count = match knob.allowed() {
@@ -317,12 +309,12 @@ mod tests {
                         Err(why) => {
                             let given = scene.initial != Scene::base().initial;
                             let beyond = [Group::Beyond, Group::Tips].contains(&knob.group);
-                            let rigid = scene.solver.model == ModelSize::Rigid;
+                            let still = scene.solver.model == ModelSize::Rigid;
                             let expected = why.contains("leaves every gap open")
                                 || why.contains("where a ramp stops the rotor")
                                 || why.starts_with("casing.lobes = 0")
                                 || beyond && why.contains("solver.")
-                                || knob.path == TORQUE && rigid && why.contains("do not move")
+                                || knob.path == keys::EXCITATION && still
                                 || why.starts_with("initial.") && (given || scene.is_uneven())
                                 || why.starts_with("operation.speed_ramp") && scene.goes_beyond();
                             assert!(expected, "{} {why}", knob.path);
