@@ -9,8 +9,7 @@ use super::output::OutputOptions;
 use super::status::{self, Done, Refusal, Status};
 use crate::report::number::with_typed_unit;
 use crate::report::{CommandLine, survey as report};
-use rubscope_solver::scene::Quantity;
-use rubscope_solver::scene::speed_range;
+use rubscope_solver::scene::{Quantity, keys, speed_range};
 use rubscope_solver::study::margins::{TargetError, parameter};
 use rubscope_solver::study::survey::Survey;
 
@@ -40,7 +39,10 @@ impl SurveyCommand {
         self.output.ending()?;
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
-        let range = self.range().map(|text| speed_range("--range", &text)).transpose()?;
+        let own = Some((keys::VIEW_SPEEDS, scene.view.speeds.clone()));
+        let own = own.filter(|(_, speeds)| !speeds.is_empty());
+        let range = self.range().map(|text| ("--range", text)).or(own);
+        let range = range.map(|(name, text)| speed_range(name, &text)).transpose()?;
         if let (Some(text), Some(range)) = (&self.range, range)
             && !self.options.in_rpm()
         {

@@ -83,7 +83,6 @@ impl ModalData {
         };
         line("# A machine for rubscope. All numbers are in SI units; a number with another unit");
         line("# stands in quotes: speed_rad_s = \"9500 rpm\", pulse_n = \"2 kN\".");
-        line(&format!("# Its speeds: rubscope survey FILE --range {}", self.speeds));
         line("schema = 1");
         line(&format!("title = {}", toml::Value::from(self.title.as_str())));
         line("");
@@ -156,7 +155,7 @@ impl ModalData {
         line("");
         line("[view]");
         let speeds = toml::Value::from(self.speeds.as_str());
-        line(&format!("speeds = {speeds}  # of the machine, for the survey of the explorer"));
+        line(&format!("speeds = {speeds}  # of the machine, for the survey"));
         Scene::from_toml(&text)?;
         Ok(text)
     }

@@ -117,6 +117,11 @@ impl Provenance {
     pub fn text(&self) -> String {
         format!("{PROGRAM} {VERSION} {COMMIT}\n{}\n\n{}", self.command, self.scene.to_toml())
     }
+
+    /// Returns program, version and command in one line.
+    pub fn line(&self) -> String {
+        format!("{PROGRAM} {VERSION}: {}", self.command)
+    }
 }
 
 #[cfg(test)]

@@ -101,7 +101,10 @@ pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let scattered = survey.scattered.iter().map(|found| of_scatter(&survey.scene, found));
     let shaft = "One nodal diameter also moves the shaft, which this model does not have.";
     let shaft = any(|row| row.nodal_diameters == 1, shaft);
-    tuned.chain(scattered).chain(shaft).chain(growth(survey, shown)).collect()
+    let guessed =
+        "Nodal diameters with ? have no modes of their own: they borrow the common values.";
+    let guessed = any(|row| row.guessed, guessed);
+    tuned.chain(scattered).chain(guessed).chain(shaft).chain(growth(survey, shown)).collect()
 }
 
 /// Lists the nodal diameters that can lock: somewhere in the range or, without a range, at the scene's
@@ -328,7 +331,9 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
         let assumed = format!("{label}, assumed");
         frequencies.push(Series::new(assumed, Style::Rings(number, radius), over(of, false)));
     }
-    let last = rows.iter().map(|row| at(row)).fold(0.0, f64::max);
+    // Half a nodal diameter more, for the last bar; both panels have the same axis.
+    let last = 0.5 + rows.iter().map(|row| at(row)).fold(0.0, f64::max);
+    frequencies.push(Series::new("", Style::Faint, [(0.0, 0.0), (last, 0.0)]));
     let most =
         rows.iter().fold(0.0_f64, |most, row| most.max(row.omega_c_rad_s + row.omega_bd_rad_s));
     // The lines end at the highest frequency.

@@ -24,7 +24,7 @@ pub enum Role {
     Contact,
     /// Successes, such as a completed step of a lesson.
     Good,
-    /// Danger, errors and doubts: a wave that can lock or whirls, tension, failures, refused values.
+    /// Danger, errors and doubts: a wave that whirls, tension, failures, refused values.
     Trouble,
 }
 

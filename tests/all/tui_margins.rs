@@ -131,12 +131,12 @@ fn every_limit_stays_in_sight_below_it_over_the_whole_screen() {
 }
 
 #[test]
-fn what_can_lock_has_the_colour_of_danger() {
+fn what_can_lock_has_the_colour_of_a_lock() {
     let mut session = open((120, 40), short());
     session.press("D");
     session.press("");
     let (y, row) = (0..).zip(session.rows()).find(|(_, row)| row.contains(" can lock: ")).unwrap();
     let x = row.split_once("can lock: ").unwrap().0.chars().count() as u16;
     let colour = session.terminal.backend().buffer().cell((x, y)).unwrap().fg;
-    assert_eq!(colour, ratatui::style::Color::LightRed, "{row}");
+    assert_eq!(colour, ratatui::style::Color::LightBlue, "{row}");
 }

@@ -94,7 +94,7 @@ pub struct SurveyRow {
     pub omega_c_rad_s: f64,
     /// Frequency of the bladed disk \[rad/s\].
     pub omega_bd_rad_s: f64,
-    /// Whether the scene lists modes of other nodal diameters only, so that these frequencies are
+    /// Whether the scene has no modes of these nodal diameters, so that these frequencies are
     /// borrowed.
     pub guessed: bool,
     /// Intervals of speed in which a lock holds, from the lowest, within the range or, without one,
@@ -207,10 +207,11 @@ impl Survey {
     }
 
     /// Returns the rows in order of relevance within the range: all, or those with modes of their
-    /// own and that of the scene.
+    /// own and that of the scene, where the scene lists modes.
     #[must_use]
     pub fn shown(&self, all: bool) -> Vec<&SurveyRow> {
         let own = self.scene.operation.nodal_diameters;
+        let all = all || self.scene.casing.modes.is_empty();
         let shown = |row: &&SurveyRow| all || !row.guessed || row.nodal_diameters == own;
         let mut rows: Vec<&SurveyRow> = self.rows.iter().filter(shown).collect();
         let order = |row: &SurveyRow| row.order(self.speeds());
@@ -302,6 +303,8 @@ fn row(
     range: Option<[f64; 2]>,
     by: Option<&Parameter>,
 ) -> SurveyRow {
+    // Without a list of modes there is only that of the scene's own nodal diameters.
+    let is_other = diameters != scene.operation.nodal_diameters && scene.casing.modes.is_empty();
     // Selects the modes with these nodal diameters.
     let mut scene = Scene::clone(scene);
     scene.operation.nodal_diameters = diameters;
@@ -332,7 +335,7 @@ fn row(
         nodal_diameters: diameters,
         omega_c_rad_s: machine.omega_c,
         omega_bd_rad_s: machine.omega_bd,
-        guessed: scene.modes_note().is_some(),
+        guessed: is_other || scene.modes_note().is_some(),
         locks_in_range: locks(&scene, &machine, asked, ranges),
         whirls_in_range: whirls(&machine, &limits, [&whirl_spans, &growth_spans], asked),
         whirl_spans,

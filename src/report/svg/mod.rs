@@ -1,4 +1,4 @@
-//! A figure as SVG: title, conditions, panels in rows and a caption; and text as an SVG page.
+//! A figure as SVG: title, conditions, panels in rows, a caption and the command; and text as an SVG page.
 
 mod panel;
 mod paper;
@@ -53,8 +53,13 @@ pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Resul
         svg += &text(line, [LEFT, down + 13.0], "");
         down += LINE;
     }
-    let height = if caption.is_empty() { down } else { down + 16.0 };
-    writeln!(out, "{}{svg}</svg>", opening([width, height], "sans-serif", TEXT, origin))
+    // Keys of the command have underscores, which are no subscripts.
+    for line in lines_of(&origin.line()) {
+        svg += &format!("<text x=\"{LEFT}\" y=\"{}\">{}</text>\n", down + 13.0, escaped(&line));
+        down += LINE;
+    }
+    let size = [width, down + 16.0];
+    writeln!(out, "{}{svg}</svg>", opening(size, "sans-serif", TEXT, origin))
 }
 
 /// Writes text as a page in a monospaced font; its origin goes into the description element. Lines

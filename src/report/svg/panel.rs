@@ -18,6 +18,8 @@ const RIGHT: f64 = 24.0;
 const BELOW: f64 = 52.0;
 /// Largest number of ticks on an axis.
 const MOST_TICKS: usize = 8;
+/// Smallest distance between the labels of two ticks \[px\].
+const TICKS_APART: f64 = 8.0;
 /// Half the width of a bar of [`Style::Bars`], in units of x.
 const HALF: f64 = 0.3;
 /// Style of the lines of marks.
@@ -48,6 +50,10 @@ pub fn draw(panel: &Panel, [width, height]: Place) -> String {
         svg += &text(&label, [LABELS - 8.0, at + 4.0], "text-anchor=\"end\"");
     }
     svg += &line(&[[LABELS, top], [LABELS, bottom], [right, bottom]], "black", 1.0, "");
+    if ranging(panel).next().is_none() {
+        let middle = [0.5 * (LABELS + right), 0.5 * (top + bottom)];
+        svg += &text("no curve: nothing in this range", middle, "text-anchor=\"middle\"");
+    }
     let middle = [0.5 * (LABELS + right), bottom + 38.0];
     svg += &text(&panel.x.label, middle, "text-anchor=\"middle\"");
     let middle = 0.5 * (top + bottom);
@@ -62,13 +68,11 @@ pub fn draw(panel: &Panel, [width, height]: Place) -> String {
     let (faint, named): (Vec<&Series>, Vec<&Series>) = panel.series.iter().partition(is_faint);
     for Series { style, points, .. } in faint.into_iter().chain(named) {
         let height = |point| if *style == Style::Edge { bottom } else { y.place(y.shown(point)) };
+        let at = points.iter().map(|point| [x.place(x.shown(point.0)), height(point.1)]);
         // A curve over a map that is not complete may leave its cells.
         let is_inside = |[x, y]: &Place| (LABELS..=right).contains(x) && (top..=bottom).contains(y);
-        for part in points.split(|point| !point.1.is_finite()).filter(|part| !part.is_empty()) {
-            let at = part.iter().map(|point| [x.place(x.shown(point.0)), height(point.1)]);
-            let at = at.filter(|at| !on_cells || is_inside(at));
-            svg += &drawn(*style, &at.collect::<Vec<_>>(), half, on_cells);
-        }
+        let at = at.filter(|at| !on_cells || is_inside(at));
+        svg += &drawn(*style, &at.collect::<Vec<_>>(), half, on_cells);
     }
     for mark in &panel.marks {
         let at = x.shown(mark.x);
@@ -84,9 +88,7 @@ pub fn draw(panel: &Panel, [width, height]: Place) -> String {
 /// Draws the legend (without faint or empty series); returns its height.
 fn legend(panel: &Panel, [width, top]: Place, svg: &mut String) -> f64 {
     let (mut left, mut row) = (LABELS, 0.0);
-    let is_named = |series: &&Series| {
-        series.style != Style::Faint && series.points.iter().any(|point| point.1.is_finite())
-    };
+    let is_named = |series: &&Series| series.style != Style::Faint && !series.points.is_empty();
     for series in panel.series.iter().filter(is_named) {
         let long = SAMPLE + width_of(&series.label);
         if left > LABELS && left + long > width {
@@ -220,13 +222,20 @@ impl<'a> Scale<'a> {
         from + (at - self.low) / (self.high - self.low) * (to - from)
     }
 
-    /// Returns the places of the ticks, with their labels.
+    /// Returns the places of the ticks with their labels: as many as stand apart.
     fn ticks(&self) -> Vec<(f64, String)> {
-        let ticks = match self.quantity.log {
-            true => log_ticks(self.low, self.high, MOST_TICKS),
-            false => ticks(self.low, self.high, MOST_TICKS).0,
+        let ticks = |most| match self.quantity.log {
+            true => log_ticks(self.low, self.high, most),
+            false => ticks(self.low, self.high, most).0,
         };
-        ticks.into_iter().map(|tick| (self.place(tick), self.label(tick))).collect()
+        let label = |tick: f64| (self.place(tick), self.label(tick));
+        let labels = |most| ticks(most).into_iter().map(label).collect::<Vec<_>>();
+        let size = |label: &str| if self.ends[0] < self.ends[1] { width_of(label) } else { 0.0 };
+        let stand_apart = |labels: &Vec<(f64, String)>| {
+            let widest = labels.iter().map(|(_, label)| size(label)).fold(0.0, f64::max);
+            labels.windows(2).all(|pair| (pair[1].0 - pair[0].0).abs() >= widest + TICKS_APART)
+        };
+        (1..=MOST_TICKS).rev().map(labels).find(stand_apart).unwrap_or_default()
     }
 
     fn label(&self, tick: f64) -> String {

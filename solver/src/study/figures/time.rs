@@ -319,11 +319,9 @@ pub fn four_diameters(scene: &CheckedScene) -> Figure {
                 .to_string(),
             format!(
                 "Differs: the paper's lock begins at about 0.08 s. No setting that gives this was \
-                 found that does not depend on the step. Of {}, each longer by the same factor, {}. Other steps begin and end \
-                 elsewhere: 50 kN locks from 20 ms on, nine times of ten by 50 ms; 42 kN from 30 ms \
-                 on, nine times of ten by 0.1 s; single locks come later. The bladed disk has not \
-                 reached its static deformation: it \
-                 {swings}. The casing has no damping, and the modal stiffness that the printed \
+                 found that does not depend on the step. Of {}, each longer by the same factor, {}; \
+                 other steps give other times. The bladed disk has not reached its static \
+                 deformation: it {swings}. The casing has no damping, and the modal stiffness that the printed \
                  Ω_c = 256.12 rad/s implies.",
                 many_steps(),
                 many.join("; ")
