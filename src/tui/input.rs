@@ -35,6 +35,9 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> Result<()> {
         loop {
             let event = input.next().unwrap_or(ScreenEvent::InputClosed);
             let last = event == ScreenEvent::InputClosed;
+            if [INTERRUPT, KeyCode::Char('q').into()].map(ScreenEvent::Key).contains(&event) {
+                terminal::hurry();
+            }
             if to.send(event).is_err() || last {
                 return;
             }

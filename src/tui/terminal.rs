@@ -30,6 +30,8 @@ static TTY: OnceLock<Tty> = OnceLock::new();
 static HELD: AtomicBool = AtomicBool::new(false);
 /// Whether a frame was abandoned, perhaps within an escape sequence.
 static TORN: AtomicBool = AtomicBool::new(false);
+/// Whether a key that quits has come since the last write began.
+static QUITS: AtomicBool = AtomicBool::new(false);
 /// Whether the explorer wants mouse reports of the terminal.
 static MOUSE: AtomicBool = AtomicBool::new(false);
 
@@ -146,10 +148,10 @@ pub fn leave() {
             Show,
             SetAttribute(Attribute::Reset)
         );
-        let sent = tty.send(&bytes, ROOM, || false);
-        if sent.is_ok_and(|sent| sent < bytes.len()) && front {
+        let send = || tty.send(&bytes, |idle| idle >= ROOM);
+        if send().is_ok_and(|sent| sent < bytes.len()) && front {
             tty.drop_pending();
-            let _ = tty.send(&bytes, ROOM, || false);
+            let _ = send();
         }
     }
     HELD.store(false, SeqCst);
@@ -183,13 +185,15 @@ pub fn regain() -> Result<(), Error> {
 }
 
 /// Writes a frame, or a sequence between frames. It is abandoned if the terminal accepts nothing for
-/// `STUCK`, or a signal has ended the program.
+/// `STUCK`, or less where a key that quits waits, or a signal has ended the program.
 ///
 /// # Errors
 /// Fails if the terminal is closed.
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
     let began = Instant::now();
-    let sent = tty()?.send(bytes, STUCK, || ended_by().is_some())?;
+    QUITS.store(false, SeqCst);
+    let patience = || if QUITS.load(SeqCst) { AT_ONCE } else { STUCK };
+    let sent = tty()?.send(bytes, |idle| idle >= patience() || ended_by().is_some())?;
     SENT.fetch_add(sent as u64, SeqCst);
     if began.elapsed() > AT_ONCE {
         SLOW.store(true, SeqCst);
@@ -198,6 +202,11 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
         TORN.store(true, SeqCst);
     }
     Ok(())
+}
+
+/// Records that a key that quits has come: no frame keeps it waiting.
+pub fn hurry() {
+    QUITS.store(true, SeqCst);
 }
 
 /// Returns whether a frame was abandoned since the last call; then the whole screen must be drawn

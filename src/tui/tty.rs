@@ -51,15 +51,15 @@ impl Tty {
         Ok(Self { out, keys, returns })
     }
 
-    /// Writes bytes and returns how many were written: all, unless the terminal accepts nothing for
-    /// `patience`, or `stop` returns true.
+    /// Writes bytes and returns how many were written: all, unless `stop` returns true for the time
+    /// since the terminal last accepted any.
     ///
     /// # Errors
     /// The terminal is closed.
-    pub fn send(&self, bytes: &[u8], patience: Duration, stop: impl Fn() -> bool) -> Result<usize> {
+    pub fn send(&self, bytes: &[u8], stop: impl Fn(Duration) -> bool) -> Result<usize> {
         let (mut sent, mut accepted) = (0, Instant::now());
         while let Some(rest) = bytes.get(sent..).filter(|rest| !rest.is_empty()) {
-            if stop() || accepted.elapsed() >= patience {
+            if stop(accepted.elapsed()) {
                 break;
             }
             if !self.returns && !self.has_room()? {

@@ -229,7 +229,6 @@ impl App {
                 self.status = flipped(&mut self.knobs.live, said);
             }
             Command::Select(place) => self.select(place),
-            Command::Unfold(place) => self.knobs.select(place),
             Command::SetPart(place, part) => self.set_part(place, part),
             command => self.change_run(command),
         }

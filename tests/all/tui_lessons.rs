@@ -354,7 +354,7 @@ fn a_step_that_was_passed_over_is_named_in_the_list() {
 #[test]
 fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
     let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
-    session.press("\n430\n6x]");
+    session.press("\n430\n6x] :t 3 ms\n");
     let own = session.app.clone();
     session.press("g\n");
     assert_ne!(session.app.scene, own.scene);
@@ -367,6 +367,7 @@ fn a_lesson_gives_back_what_was_there_and_undo_reaches_across() {
             && app.scene == own.scene
             && app.files.opened == own.files.opened
             && app.files.source == own.files.source
+            && app.now() == 3e-3
             && live == (own.knobs.live, own.view(), own.layout.views.clone(), own.run.compare)
     };
     assert!(same(&session.app) && session.app.play.tempo.rate == own.play.tempo.rate);

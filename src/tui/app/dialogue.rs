@@ -113,25 +113,43 @@ impl App {
         Effect::None
     }
 
-    /// Closes what is open: the search of the help, a dialogue, the cursor, or the full screen.
+    /// Closes what is open: the search of the help, a dialogue, the cursor, the list of knobs, the
+    /// other law, or the full screen.
     pub fn close(&mut self) {
         self.knobs.refusal = None;
         match &self.dialogue.mode {
             InputMode::Help(help) if help.is_searched() => {
                 self.dialogue.open(InputMode::Help(HelpState::default()));
             }
-            InputMode::Main if self.reading != Reading::default() => self.stop_reading(),
-            InputMode::Main if self.play.middle_s.is_some() => self.stop_reading(),
-            InputMode::Main if placed(self).list.is_some() => self.knobs.select(0),
-            InputMode::Main => self.layout.full_screen = false,
+            InputMode::Main => self.close_over_main(),
             _ => self.dialogue.close(),
         }
     }
 
-    /// Returns whether a dialogue, a cursor or the full screen is open over the main screen.
+    fn close_over_main(&mut self) {
+        if self.reading != Reading::default() || self.play.middle_s.is_some() {
+            self.stop_reading();
+        } else if self.compares() {
+            self.run.set_compare(false);
+        } else if !self.close_list() {
+            self.layout.full_screen = false;
+        }
+    }
+
+    /// Closes the list of knobs over the charts; returns whether it was open.
+    pub fn close_list(&mut self) -> bool {
+        let is_open = placed(self).list.is_some();
+        if is_open {
+            self.knobs.select(0);
+        }
+        is_open
+    }
+
+    /// Returns whether a dialogue, a cursor, the list of knobs or the only chart is open over the
+    /// main screen.
     pub fn has_open(&self) -> bool {
         let reads = self.reading.on || self.reading.cursor.is_some();
-        !self.dialogue.is_closed() || reads || self.layout.full_screen
+        !self.dialogue.is_closed() || reads || placed(self).list.is_some() || self.is_alone()
     }
 
     /// Moves the selection of the open list, or scrolls the help; returns false for other

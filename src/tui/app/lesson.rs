@@ -89,9 +89,7 @@ impl App {
             }
         }
     }
-}
 
-impl App {
     /// Opens the list of lessons, or goes to the next step.
     pub fn guide(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {

@@ -114,6 +114,9 @@ pub struct Past {
     pub scene: CheckedScene,
     /// The film of its run.
     pub film: FilmPlan,
+    /// Time shown \[s\], and whether the motion played on from there.
+    pub at_s: f64,
+    pub playing: bool,
     /// The scene as opened.
     pub opened: CheckedScene,
     /// Where it came from; `None` for the built-in default.

@@ -36,6 +36,7 @@ impl App {
             let [t, end] = [t, end].map(|t| readable(t, "s"));
             return Err(format!("t = {t}: from 0 to {end}, the end of the run"));
         }
+        self.close_list();
         self.go_to(t);
         self.status = Some(format!("paused at {}", instant(t)));
         Ok(())

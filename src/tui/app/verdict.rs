@@ -287,9 +287,7 @@ impl App {
             None => who,
         }
     }
-}
 
-impl App {
     /// Returns the speed from which a lock with pushing contact exists \[rad/s\]; 0 if it exists at
     /// standstill, `None` if nothing locks (e.g. all blades rub).
     pub fn lock_speed(&self) -> Option<f64> {

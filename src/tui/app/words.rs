@@ -12,7 +12,6 @@ use crate::tui::command::{Command, Purpose};
 use crate::tui::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
 use crate::tui::lessons::{self, LETTERS};
 use crate::tui::theme::Theme;
-use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::numeric;
 use rubscope_solver::scene::Value;
 use rubscope_solver::scene::keys;
@@ -205,16 +204,6 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             Ok(number) => lessons().nth(number.checked_sub(1)?).into_iter().collect(),
             Err(_) => those_with(lessons(), &lower),
         },
-        "view" => {
-            let named = |view: &ViewId| {
-                view.digit().to_string() == lower || view.word().starts_with(&lower)
-            };
-            let act = |view: ViewId| {
-                Found::of("view", view.what(), Command::View(view)).beside(view.digit().to_string())
-            };
-            let found: Vec<Found> = ViewId::all().filter(named).map(act).collect();
-            Some(found).filter(|found| !found.is_empty())?
-        }
         "answer" => {
             let place = LETTERS.iter().position(|letter| lower == letter.to_string())?;
             vec![Found::of("go", typed.trim(), Command::Answer(place))]
@@ -284,9 +273,6 @@ fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
         let kind = if across { "across" } else { "up" };
         Found::of(kind, knob.label, Command::Axes(paths)).beside(knob.text(&app.scene))
     };
-    if words.is_empty() {
-        return numeric().map(item).collect();
-    }
     let mut fitting: Vec<_> =
         numeric().filter_map(|knob| Some((fit(knob, &words)?, knob))).collect();
     fitting.sort_by_key(|(fit, _)| *fit);

@@ -83,8 +83,6 @@ pub enum Command {
     Live,
     /// Select a knob, given by its index in `KNOBS`.
     Select(usize),
-    /// Open a group of knobs, given by the index of its first knob.
-    Unfold(usize),
     /// Set a knob, given by its index, to a value as typed.
     Set(usize, String),
     /// Set a knob, given by its index, to the value at a fraction of its bar, 0 to 1.

@@ -9,7 +9,7 @@ use crate::report::number::{in_tenths, per_speed, rounded, short as digits, spee
 use crate::report::sentence::Sentence;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
-use crate::tui::axis::readable;
+use crate::tui::axis::{number, readable};
 use crate::tui::engine::{FORECAST_LIMIT, Limit, Sensitive};
 use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
@@ -254,7 +254,7 @@ fn end(app: &App) -> Vec<Part> {
     let look = &app.appearance;
     let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
     let piece = |rank, gap, text| Part { rank, gap, pieces: vec![(text, quiet)] };
-    let at = vec![("AT ".into(), quiet), (duration(app.end_s()), text)];
+    let at = vec![("AT ".into(), quiet), (number(rounded(app.end_s(), 4), "s"), text)];
     let verdict = app.verdict().filter(|_| !app.is_asked());
     let verdict = verdict.map_or("?".into(), |verdict| verdict.to_string());
     let mut parts = vec![Part { rank: 0, gap: GAP, pieces: at }, piece(5, " ", verdict)];

@@ -34,7 +34,7 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
     (ViewId::Frame, "wheel, and the wave as the blades see it"),
     (ViewId::Map, "map of the verdict over two knobs"),
     (ViewId::Spectrum, "spectrum and Campbell lines"),
-    (ViewId::Precision, "speed against error"),
+    (ViewId::Precision, "precision: speed against error"),
     (ViewId::Margins, "margins: how robust the run is, how far every limit is, what moves it"),
     (ViewId::Coincidence, "coincidence: how large a wave grows"),
 ];

@@ -8,6 +8,7 @@ pub mod strip;
 use super::model::{App, Knobs, LessonProgress, Past};
 use crate::report::line::clean;
 use crate::report::number::rounded;
+use crate::tui::engine::Move;
 use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::motion::Change;
 use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind, Value};
@@ -53,6 +54,8 @@ impl App {
         Past {
             scene: self.scene.clone(),
             film: self.run.film.clone(),
+            at_s: self.now(),
+            playing: self.play.playing,
             opened: self.files.opened.clone(),
             source: self.files.source.clone(),
             views: self.layout.views.clone(),
@@ -62,9 +65,7 @@ impl App {
             lesson: self.lessons.progress.clone(),
         }
     }
-}
 
-impl App {
     /// Turns the selected knob once for this press of its key and once for each further press that
     /// is waiting. It stops at the first refused value and shows the reason.
     pub fn turn(&mut self, up: bool, coarse: bool) {
@@ -203,7 +204,8 @@ impl App {
     }
 
     /// Restores a state with its film. If only live changes differ, the motion goes on without those
-    /// that are undone; another scene of the film or another lesson step restarts the run.
+    /// that are undone; another scene of the film restarts the run. Another lesson step goes on at
+    /// the time that was shown.
     pub fn come_back(&mut self, past: Past) {
         self.knobs.refusal = None;
         let step = |lesson: Option<&LessonProgress>| {
@@ -228,9 +230,10 @@ impl App {
             self.keep_instant();
         }
         self.run.set_compare(past.compare);
-        if past.scene != self.scene {
-            self.set_scene(past.scene, false);
-        }
+        self.set_scene(past.scene.clone(), false);
+        self.play.playing = past.playing;
+        self.play.moves.push(Move::To(past.at_s));
+        self.show_film(past.film, past.scene);
     }
 }
 

@@ -26,7 +26,7 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect, from: usize) {
         match *line {
             ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
                 if let Some(first) = group.places().next() {
-                    app.note(row, Command::Unfold(first));
+                    app.note(row, Command::Select(first));
                 }
                 match line {
                     ColumnLine::Heading(_) => heading(app, buffer, row, group),

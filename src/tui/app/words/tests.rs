@@ -1,11 +1,10 @@
 //! Tests of what is typed after `:`.
 
-use rubscope_solver::scene::Scene;
-
 use super::*;
 use crate::tui::Marker;
-use rubscope_solver::scene::BUILTIN;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::keys::PULSE;
+use rubscope_solver::scene::{BUILTIN, Scene};
 
 fn app() -> App {
     App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille)
