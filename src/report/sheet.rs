@@ -198,14 +198,24 @@ impl<'a> Sheet<'a> {
         match &self.picture {
             Picture::Figure(figure) => svg::write(&figure(), &origin, out),
             Picture::Charts(charts) if !charts.is_empty() => {
-                let panels = charts.iter().filter_map(|chart| self.panel(chart)).collect();
-                svg::write(&Figure::new(origin.scene.title.clone(), "", panels), &origin, out)
+                let figure = Figure::new(origin.scene.title.clone(), "", self.panels());
+                svg::write(&figure, &origin, out)
             }
             Picture::Charts(_) => {
                 let mut text = Vec::new();
                 self.write_text(false, &mut text)?;
                 writeln!(text, "\n{PROGRAM} {VERSION}: {}", origin.command)?;
                 svg::write_text(&String::from_utf8_lossy(&text), &origin, out)
+            }
+        }
+    }
+
+    /// Returns what the sheet draws.
+    pub fn panels(&self) -> Vec<Panel> {
+        match &self.picture {
+            Picture::Figure(figure) => figure().panels,
+            Picture::Charts(charts) => {
+                charts.iter().filter_map(|chart| self.panel(chart)).collect()
             }
         }
     }
@@ -219,7 +229,6 @@ impl<'a> Sheet<'a> {
             true => names.map(|name| [name; 2]).collect(),
             false => columns.clone(),
         };
-        let xs = table.numbers(first);
         let x = match first {
             "t_s" => Quantity::TIME,
             "speed_rad_s" => Quantity {
@@ -229,12 +238,13 @@ impl<'a> Sheet<'a> {
             },
             _ => Quantity::new("x", "frequency ω [rad/s]", 1.0),
         };
-        let series = columns.iter().enumerate().map(|(number, [name, label])| {
-            let points = xs.iter().copied().zip(table.numbers(name));
-            Series::new(*label, Style::Line(number), points)
-        });
+        let mut series: Vec<Series> = Vec::new();
+        for (number, [name, label]) in columns.iter().enumerate() {
+            let points = table.numbers([first, *name]);
+            series.push(Series { points, ..Series::new(*label, Style::Line(number), []) });
+        }
         let y = Quantity::new("y", label, 1.0);
-        Some(Panel::new("", x, y, series.collect()))
+        Some(Panel::new("", x, y, series))
     }
 }
 

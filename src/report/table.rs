@@ -257,16 +257,19 @@ impl<'a> Table<'a> {
         (0..self.count).map(&self.row)
     }
 
-    /// Returns a column by its name in files; `NaN` stands for a cell without a number, and the
-    /// whole column if there is none of that name.
-    pub fn numbers(&self, name: &str) -> Vec<f64> {
-        let is_it = |heading: &Heading| heading.name.as_deref() == Some(name);
-        let place = self.headings.iter().position(is_it);
-        let number = |row: Vec<TableCell>| match place.and_then(|place| row.get(place)) {
+    /// Returns two columns by their names in files; `NaN` stands for a cell without a number, and for
+    /// a column that there is not.
+    pub fn numbers(&self, names: [&str; 2]) -> Vec<(f64, f64)> {
+        let places = names.map(|name| {
+            self.headings.iter().position(|heading| heading.name.as_deref() == Some(name))
+        });
+        let number = |row: &[TableCell], place: Option<usize>| match place
+            .and_then(|place| row.get(place))
+        {
             Some(TableCell::Number(x) | TableCell::Told(x, _)) => *x,
             _ => f64::NAN,
         };
-        self.rows().map(number).collect()
+        self.rows().map(|row| (number(&row, places[0]), number(&row, places[1]))).collect()
     }
 
     /// Returns the headings and then the rows as cells padded to the width of their column. The

@@ -8,12 +8,12 @@ use std::time::Duration;
 use super::film::plan::FilmPlan;
 use super::history::Bin;
 use super::trace::{Mark, Trace};
-use super::views::coincidence::curves::CoincidenceCurves;
 use super::views::id::ViewId;
-use super::views::locked::curves::LockedCurves;
 use super::views::map::plan::{CellRun, LiveMap, MapChoice};
 use super::views::margins::live::LiveMargins;
 use super::views::spectrum::lines::Spectrum;
+use super::views::steady::coincidence_curves::CoincidenceCurves;
+use super::views::steady::locked_curves::LockedCurves;
 use rubscope_solver::motion::{
     ActiveSet, Certainty, Checks, Failure, Hold, Motion, Seen, State, Verdict,
 };

@@ -142,13 +142,6 @@ impl<'a> Plot<'a> {
         self.raster.size().0
     }
 
-    /// Returns the x value at the middle of each sub-pixel column.
-    pub fn column_values(&self) -> Vec<f64> {
-        let count = self.columns();
-        let width = (self.x.high - self.x.low) / count.max(1) as f64;
-        (0..count).map(|k| self.x.low + (k as f64 + 0.5) * width).collect()
-    }
-
     /// Returns the sub-pixel column of an x value, which may lie outside the chart; `None` if it is
     /// not finite.
     fn pixel_x(&self, value: f64) -> Option<i64> {

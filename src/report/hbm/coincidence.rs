@@ -48,7 +48,7 @@ pub fn add_points<'a>(
     sheet: &mut Sheet<'a>,
 ) {
     sheet.table("points", title, Table::of(points, CURVE));
-    sheet.chart("amplitude of the blades [rad]", &[["blade_amplitude_rad", "wave that lasts"]]);
+    sheet.chart("amplitude of the blades [rad]", &[["blade_amplitude_rad", "|a|"]]);
     sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
 }
 

@@ -40,10 +40,13 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     Ok(())
 }
 
-/// Adds the table of the locked motion, and its multipliers as a chart.
+/// Adds the table of the locked motion, and its multipliers, angles and amplitudes as charts.
 pub fn add_points<'a>(points: impl AsRef<[LockedPoint]> + 'a, sheet: &mut Sheet<'a>) {
     sheet.table("points", "", Table::of(points, POINTS).shown(7));
-    sheet.chart("multiplier [N]", &[["multiplier_a_n", "a"], ["multiplier_b_n", "b"]]);
+    sheet.chart("multiplier [N]", &[["multiplier_a_n", "λ_a"], ["multiplier_b_n", "λ_b"]]);
+    sheet.chart("angle of the blades [rad]", &[["alpha_a_rad", "α_a"], ["alpha_b_rad", "α_b"]]);
+    let amplitudes = [["u_cc_m", "u_cc"], ["u_cs_m", "u_cs"], ["amplitude_m", "|u|"]];
+    sheet.chart("casing [m]", &amplitudes);
 }
 
 /// Names the blades that hold the wave, and the equations.

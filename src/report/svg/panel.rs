@@ -68,11 +68,13 @@ pub fn draw(panel: &Panel, [width, height]: Place) -> String {
     let (faint, named): (Vec<&Series>, Vec<&Series>) = panel.series.iter().partition(is_faint);
     for Series { style, points, .. } in faint.into_iter().chain(named) {
         let height = |point| if *style == Style::Edge { bottom } else { y.place(y.shown(point)) };
-        let at = points.iter().map(|point| [x.place(x.shown(point.0)), height(point.1)]);
         // A curve over a map that is not complete may leave its cells.
         let is_inside = |[x, y]: &Place| (LABELS..=right).contains(x) && (top..=bottom).contains(y);
-        let at = at.filter(|at| !on_cells || is_inside(at));
-        svg += &drawn(*style, &at.collect::<Vec<_>>(), half, on_cells);
+        for part in points.split(|point| !point.1.is_finite()).filter(|part| !part.is_empty()) {
+            let at = part.iter().map(|point| [x.place(x.shown(point.0)), height(point.1)]);
+            let at = at.filter(|at| !on_cells || is_inside(at));
+            svg += &drawn(*style, &at.collect::<Vec<_>>(), half, on_cells);
+        }
     }
     for mark in &panel.marks {
         let at = x.shown(mark.x);
@@ -88,7 +90,9 @@ pub fn draw(panel: &Panel, [width, height]: Place) -> String {
 /// Draws the legend (without faint or empty series); returns its height.
 fn legend(panel: &Panel, [width, top]: Place, svg: &mut String) -> f64 {
     let (mut left, mut row) = (LABELS, 0.0);
-    let is_named = |series: &&Series| series.style != Style::Faint && !series.points.is_empty();
+    let is_named = |series: &&Series| {
+        series.style != Style::Faint && series.points.iter().any(|point| point.1.is_finite())
+    };
     for series in panel.series.iter().filter(is_named) {
         let long = SAMPLE + width_of(&series.label);
         if left > LABELS && left + long > width {

@@ -1,17 +1,17 @@
 //! The views: one file or folder each, and the table of them. To add a view, write its file, add it
 //! here and to the table in `id`, and add its word to `CHARTS`.
 
-pub mod coincidence;
+mod chart;
 mod frame;
 mod gaps;
 pub mod id;
-pub mod locked;
 pub mod map;
 pub mod margins;
 mod panel;
 mod precision;
 mod response;
 pub mod spectrum;
+pub mod steady;
 mod table;
 
 pub use panel::{ViewArea, ViewPanel};
@@ -27,13 +27,13 @@ use rubscope_solver::scene::keys::CHARTS;
 const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
     (ViewId::Response, &response::ResponseView),
     (ViewId::Gaps, &gaps::GapsView),
-    (ViewId::Locked, &locked::LockedView),
+    (ViewId::Locked, &steady::locked::LockedView),
     (ViewId::Frame, &frame::FrameView),
     (ViewId::Map, &map::MapView),
     (ViewId::Spectrum, &spectrum::SpectrumView),
     (ViewId::Precision, &precision::PrecisionView),
     (ViewId::Margins, &margins::MarginsView),
-    (ViewId::Coincidence, &coincidence::CoincidenceView),
+    (ViewId::Coincidence, &steady::coincidence::CoincidenceView),
 ];
 
 impl ViewId {

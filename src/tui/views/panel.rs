@@ -1,5 +1,5 @@
-//! The trait of a view, and what views share: the title row with its legend, the labels of marked
-//! speeds and levels, and the files of a view.
+//! The trait of a view, and what views share: the title row with its legend, the text above a
+//! chart, and the files of a view.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -9,9 +9,7 @@ use crate::report::Sheet;
 use crate::tui::app::layout::LEAST_ROWS;
 use crate::tui::app::{App, Cursor, Parts};
 use crate::tui::appearance::Appearance;
-use crate::tui::axis::ChartAxis;
 use crate::tui::command::Command;
-use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::Role;
@@ -190,21 +188,6 @@ pub fn dots(look: &Appearance, name: &str) -> (String, Style) {
     (format!("{} {name}", look.either("· ·", ". .")), look.style(Role::Quiet))
 }
 
-/// Prints the label of a horizontal level in the row of its line, at the rightmost free position;
-/// prints nothing if none is free.
-pub fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
-    let Some(row) = plot.row(level) else { return };
-    let parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
-    for part in parts {
-        if plot.free_note(x.at(part), row, name, style) {
-            return;
-        }
-    }
-}
-
-/// Number of positions along a level that are tried for its label.
-const LEVEL_PLACES: u32 = 40;
-
 /// Prints lines above a chart; returns the rest of the area.
 pub fn lines_above(
     app: &App,
@@ -229,30 +212,4 @@ pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
         None => "waits for the verdict of the run",
     };
     print(buffer, inside, 1, text, quiet);
-}
-
-/// Prints the labels of marked speeds, each in the highest free row of the chart, otherwise on the
-/// axis line. A label that would cover something is left out; its line remains.
-pub fn name_speeds(plot: &mut Plot, marks: &[(f64, &str)], app: &App) {
-    let style = app.appearance.style(Role::Text);
-    for (speed, name) in marks {
-        let name = app.appearance.spell(name);
-        let mut rows = plot.inner.y..plot.inner.bottom();
-        if !rows.any(|row| plot.free_note(*speed, row, &name, style)) {
-            plot.axis_note(*speed, &name, style, &app.appearance);
-        }
-    }
-}
-
-/// Draws vertical lines at the marked speeds, the magnitude of the current speed, and the cursor
-/// speed `read`, all in rad/s.
-pub fn uprights(plot: &mut Plot, app: &App, marks: &[(f64, &str)], read: Option<f64>) {
-    let look = &app.appearance;
-    for (speed, _) in marks {
-        plot.upright(*speed, look.either('┊', ':'), look.style(Role::Quiet));
-    }
-    plot.upright(app.speed().abs(), look.either('│', '|'), look.style(Role::Focus));
-    if let Some(speed) = read {
-        plot.upright(speed, look.either('╎', '!'), look.style(Role::Focus));
-    }
 }

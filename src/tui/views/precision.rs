@@ -1,15 +1,17 @@
 //! View 7: computing time against error of every solver on this scene, one letter per series, as in
 //! `rubscope precision`.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 
-use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use super::ViewId;
+use super::chart::Chart;
+use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
 use crate::report::Sheet;
 use crate::report::number::count;
 use crate::report::precision::{decades, letter, place, reference_words, series, sheet};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
-use crate::tui::plot::Plot;
 use crate::tui::text::{print, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::SolverKind;
@@ -27,7 +29,7 @@ impl ViewPanel for PrecisionView {
             SolverKind::Explicit => Role::Second,
         };
         let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
-        let mut inside = title(app, buffer, at, "precision", &axes);
+        let inside = title(app, buffer, at, "precision", &axes);
         if let Err(error) = Measure::check(&app.scene, Effort::QUICK) {
             print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
             print(buffer, inside, 2, &error.to_string(), quiet);
@@ -36,61 +38,52 @@ impl ViewPanel for PrecisionView {
         let Some(report) = &app.results().found.precision else {
             return not_yet(app, buffer, inside);
         };
+        let above = |buffer: &mut Buffer, inside: Rect, text: &str, role| {
+            let lines = wrap(&look.spell(text), usize::from(inside.width).saturating_sub(1));
+            lines_above(app, buffer, inside, &lines, role)
+        };
+        let (note, role) = note(report);
+        let mut inside = above(buffer, inside, &note, role);
         // A logarithmic axis has no zero, and no position for a run without an error.
         let placed = report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         let points = placed.filter(|((_, error), _)| *error > 0.0);
         let points: Vec<_> =
             points.map(|((time, error), row)| ((time.log10(), error.log10()), row)).collect();
-        let times = decades(points.iter().map(|((x, _), _)| *x));
-        let errors = decades(points.iter().map(|((_, y), _)| *y));
-        let axes = times.zip(errors).map(|((left, right), (bottom, top))| {
-            [ChartAxis::powers(left, right, None), ChartAxis::powers(bottom, top, None)]
-        });
-        let cursor = app.reading.cursor.filter(|_| at.large).zip(axes);
-        let cursor = cursor.map(|(at, [x, y])| (x.at(at.across), y.at(at.up)));
-        // Distances are relative to the lengths of the axes.
-        let length = |ends: Option<(f64, f64)>| ends.map_or(1.0, |(from, to)| to - from);
-        let far = |(x, y): (f64, f64), to: (f64, f64)| {
-            ((x - to.0) / length(times)).hypot((y - to.1) / length(errors))
-        };
-        let mut caption = |text: &str, role| {
-            for line in wrap(&look.spell(text), usize::from(inside.width)) {
-                print(buffer, inside, 0, &line, look.style(role));
-                let height = inside.height.saturating_sub(1);
-                inside = Rect { y: inside.y + 1, height, ..inside };
-            }
-        };
-        let (note, role) = note(report);
-        caption(&note, role);
-        if at.large {
-            caption(&legend(points.iter().map(|(_, row)| *row)), Role::Quiet);
-        }
-        let nearest = cursor.and_then(|cursor| {
-            points.iter().min_by(|a, b| far(a.0, cursor).total_cmp(&far(b.0, cursor)))
-        });
-        if let Some((_, row)) = nearest {
-            caption(&told(row), Role::Focus);
-        }
         let off = report.rows.len() - points.len();
         let height = inside.height.saturating_sub(u16::from(off > 0));
         if off > 0 {
             let text = format!("{} off this axis: error 0 or none", count(off as u64, "row"));
             print(buffer, inside, height, &text, quiet);
         }
-        let Some([x, y]) = axes else { return };
-        let inside = Rect { height, ..inside };
-        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-        at.note(app, plot.inner);
-        if let Some(cursor) = cursor {
-            plot.point(cursor.0, cursor.1, '+', look.style(Role::Focus));
+        inside.height = height;
+        if at.large {
+            let legend = legend(points.iter().map(|(_, row)| *row));
+            inside = above(buffer, inside, &legend, Role::Quiet);
         }
-        for ((x, y), row) in &points {
+        let times = decades(points.iter().map(|((x, _), _)| *x));
+        let errors = decades(points.iter().map(|((_, y), _)| *y));
+        let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
+        let (x, y) = (ChartAxis::powers(left, right, None), ChartAxis::powers(bottom, top, None));
+        let mut chart = Chart::new(x, y);
+        let cursor = app.cursor_in(ViewId::Precision).filter(|_| at.large);
+        if let Some(cursor) = cursor.map(|at| (x.at(at.across), y.at(at.up))) {
+            chart.points.push((cursor.0, cursor.1, '+', look.style(Role::Focus)));
+            // Distances are relative to the lengths of the axes.
+            let [wide, high] = [right - left, top - bottom];
+            let far = |(x, y): (f64, f64)| ((x - cursor.0) / wide).hypot((y - cursor.1) / high);
+            let nearest = points.iter().min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
+            if let Some((_, row)) = nearest {
+                inside = above(buffer, inside, &told(row), Role::Focus);
+            }
+        }
+        chart.points.extend(points.iter().map(|((x, y), row)| {
             let (sign, role) = match row.is_wrong() {
                 true => ('!', Role::Trouble),
                 false => (letter(&row.way), hue(&row.way)),
             };
-            plot.point(*x, *y, sign, look.style(role));
-        }
+            (*x, *y, sign, look.style(role))
+        }));
+        chart.draw(app, buffer, at, inside);
     }
 
     fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {

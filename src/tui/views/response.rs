@@ -3,7 +3,8 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, name_level, read_before, title};
+use super::chart::{Chart, Curve};
+use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, read_before, title};
 use crate::report::Sheet;
 use crate::report::line::clean;
 use crate::report::table::{Table, TableCell};
@@ -15,7 +16,7 @@ use crate::tui::film::other_law;
 use crate::tui::history::{self, Bin, Channel};
 use crate::tui::plot::{Plot, contact};
 use crate::tui::raster::Pen;
-use crate::tui::text::{columns, print, wrap};
+use crate::tui::text::{columns, wrap};
 use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
 use rubscope_solver::motion::ActiveSet;
@@ -180,10 +181,9 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
 fn refused(app: &App, buffer: &mut Buffer, at: ViewArea, name: &str, why: &str) {
     let look = &app.appearance;
     let inside = title(app, buffer, at, name, &[]);
-    let lines = wrap(&look.spell(why), usize::from(inside.width));
-    for (row, line) in (1..inside.height).zip(lines) {
-        print(buffer, inside, row, &line, look.style(Role::Trouble));
-    }
+    let mut lines = wrap(&look.spell(why), usize::from(inside.width).saturating_sub(1));
+    lines.insert(0, String::new());
+    lines_above(app, buffer, inside, &lines, Role::Trouble);
 }
 
 fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
@@ -213,32 +213,22 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     legend.push((format!("{mark} contact"), look.style(Role::Contact)));
     let inside = title(app, buffer, at, name, &legend);
     let inside = if what.own { failed(app, buffer, inside) } else { inside };
-    let y = y.evened(inside, look);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-    at.note(app, plot.inner);
-    plot.level(0.0, look.either('┈', '.'), quiet);
-    let levels = clearance_levels(app, what);
-    for (level, _) in &levels {
-        plot.level(*level, look.either('┈', '.'), quiet);
-    }
-    if let Some(t) = app.reading.at_s {
-        plot.upright(t, look.either('┊', ':'), look.style(Role::Focus));
-    }
-    let columns = plot.columns();
+    let mut chart = Chart::new(x, y.evened(inside, look));
+    chart.levels = vec![(0.0, "", Role::Quiet)];
+    chart.levels.extend(clearance_levels(app, what));
+    chart.read = app.reading.at_s;
     let (past, _) = app.past_and_future(what.record);
+    let spans = |record, channel| {
+        Curve::Spans(Box::new(move |count| history::columns(record, channel, (from, to), count)))
+    };
+    chart.curves =
+        what.channels.iter().zip(pens).map(|(at, pen)| (pen, spans(past, *at))).collect();
+    chart.curves.extend(ghost(app, what));
     if app.run.baseline.is_some() && what.own {
         let record = app.recorded(app.results().pinned_page.as_deref());
-        let spans = history::columns(record, what.channels[0], (from, to), columns);
-        plot.spans(&spans, &pinned(look));
+        chart.curves.push((pinned(look), spans(record, what.channels[0])));
     }
-    ghost(app, &mut plot, what);
-    for (channel, pen) in what.channels.iter().zip(&pens).rev() {
-        plot.spans(&history::columns(past, *channel, (from, to), columns), pen);
-    }
-    plot.ink();
-    for (level, name) in levels {
-        name_level(&mut plot, x, level, name, quiet);
-    }
+    let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
     let cells = usize::from(plot.inner.width);
     // Contact marks go on the time axis if there is one, so that they cover no data.
     let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
@@ -264,13 +254,14 @@ fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
 
 /// Returns the clearance levels \[m\] with their labels, for scenes beyond the paper, where the
 /// casing can pass them; empty otherwise, and for the chart of the blades.
-fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str)> {
+fn clearance_levels(app: &App, what: &Page) -> Vec<(f64, &'static str, Role)> {
     if !app.scene.goes_beyond() || what.unit != "m" {
         return Vec::new();
     }
     let clearance = app.machine.clearance().abs();
     let names = if app.is_pressed() { ["|g0|", "-|g0|"] } else { ["g0", "-g0"] };
-    [clearance, -clearance].into_iter().zip(names).collect()
+    let levels = [clearance, -clearance].into_iter().zip(names);
+    levels.map(|(level, name)| (level, name, Role::Quiet)).collect()
 }
 
 /// Returns the values at the cursor, recomputed for that time; under the other law the middle of
@@ -299,26 +290,28 @@ fn reading(app: &App, what: &Page, width: usize) -> Option<String> {
     Some(if columns(&whole) + 7 > width { values } else { whole })
 }
 
-/// Draws the future of the run as dots. Their positions are fixed on the page, so that they do not
+/// Returns the future of the run as dots. Their positions are fixed on the page, so that they do not
 /// move as the motion advances.
-fn ghost(app: &App, plot: &mut Plot, what: &Page) {
-    let (look, ahead) = (&app.appearance, app.known_s());
+fn ghost<'a>(app: &App, what: &Page<'a>) -> Vec<(Pen, Curve<'a>)> {
+    let (look, ahead, record) = (&app.appearance, app.known_s(), what.record);
     let machine = &app.machine;
     let fastest = machine.omega_c.max(machine.omega_bd).max(machine.nu(app.speed().abs()));
     // If the wave turns within a bin, draw its envelope.
-    let length = what.record.iter().map(|bin| bin.to - bin.from).fold(0.0, f64::max);
-    let parts: &[f64] = if length * fastest > 1.0 { &[0.0, 1.0] } else { &[0.5] };
-    for (channel, pen) in what.channels.iter().zip([look.first(), look.second()]).rev() {
+    let length = record.iter().map(|bin| bin.to - bin.from).fold(0.0, f64::max);
+    let parts: &[f64] = if length * fastest > 1.0 { &[1.0, 0.0] } else { &[0.5] };
+    let mut dots = Vec::new();
+    for (channel, pen) in what.channels.into_iter().zip([look.first(), look.second()]) {
         let sparse = if pen.dashed { 2.0 } else { 1.0 };
-        let pen = Pen { sign: '.', dashed: false, ..pen };
-        for part in parts {
-            let points = what.record.iter().map(|bin| {
-                let (low, high) = bin.span(*channel);
+        for &part in parts {
+            let points = record.iter().map(move |bin| {
+                let (low, high) = bin.span(channel);
                 (0.5 * (bin.from + bin.to), low + part * (high - low))
             });
-            plot.dotted(points, ahead, sparse, &pen);
+            let pen = Pen { sign: '.', dashed: false, ..pen };
+            dots.push((pen, Curve::Dots(Box::new(points), ahead, sparse)));
         }
     }
+    dots
 }
 
 /// Prints the blades of the first contacts of the page on the time axis.

@@ -56,7 +56,7 @@ pub struct Series {
     pub label: String,
     /// Line or symbol.
     pub style: Style,
-    /// Points `(x, y)`, finite, in SI units.
+    /// Points `(x, y)`, in SI units; a curve is interrupted where y is not finite.
     pub points: Vec<(f64, f64)>,
 }
 

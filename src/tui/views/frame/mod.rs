@@ -16,6 +16,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
+use crate::tui::views::chart::{Chart, Curve};
 use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
 use crate::tui::views::response::ResponseView;
 use rubscope_solver::model::SideLeft;
@@ -125,34 +126,33 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let read = reading(app, x, y, &apothems);
     let name = read_before(look, &mut legend, read, "polygon");
     let inside = title(app, buffer, at, name, &legend);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-    at.note(app, plot.inner);
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     let touching = touching_sides(app);
     // An unbounded side is drawn up to the edge of the chart.
     let most = 20.0 * polygon.clearance.abs();
-    for pass in [false, true] {
-        for SideLeft { side, reach, .. } in left.iter().filter(|left| touching(left.side) == pass) {
-            let (cos, sin) = polygon.direction(*side);
-            let apothem = apothems.get(*side as usize).copied().unwrap_or(polygon.clearance);
-            let end = |along: f64| (-apothem * cos - along * sin, -apothem * sin + along * cos);
-            let ends = reach.map(|along| end(along.clamp(-most, most)));
-            plot.curve(ends, if pass { &touched } else { &outline });
-        }
-    }
+    let side = |SideLeft { side, reach, .. }: &SideLeft| {
+        let (cos, sin) = polygon.direction(*side);
+        let apothem = apothems.get(*side as usize).copied().unwrap_or(polygon.clearance);
+        let end = |along: f64| (-apothem * cos - along * sin, -apothem * sin + along * cos);
+        let ends = reach.map(|along| end(along.clamp(-most, most)));
+        (if touching(*side) { touched } else { outline }, Curve::Line(Box::new(ends.into_iter())))
+    };
+    let mut chart = Chart::new(x, y);
     let past = app.record().iter().take_while(|bin| bin.from < app.now());
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
-    plot.curve(trail, &look.first());
-    plot.ink();
-    if let Some(cursor) = app.cursor_in(ViewId::Frame) {
-        plot.point(x.at(cursor.across), y.at(cursor.up), '+', look.style(Role::Focus));
-    }
-    if let Some(moment) = app.shown() {
+    chart.curves.push((look.first(), Curve::Line(Box::new(trail))));
+    left.sort_by_key(|left| !touching(left.side));
+    chart.curves.extend(left.iter().map(side));
+    let cursor = app.cursor_in(ViewId::Frame).map(|at| (x.at(at.across), y.at(at.up), '+'));
+    let now = app.shown().map(|moment| {
         let turned = app.machine.nodal_diameters * moment.angle;
         let [x, y] = rim_point(&app.machine, &moment.state, turned);
-        plot.point(x, y, point, look.style(Role::Focus));
-    }
+        (x, y, point)
+    });
+    let signs = [cursor, now].into_iter().flatten();
+    chart.points = signs.map(|(x, y, sign)| (x, y, sign, look.style(Role::Focus))).collect();
+    chart.draw(app, buffer, at, inside);
 }
 
 /// Clearance at rest as drawn at the usual magnification, in radii of the wheel.

@@ -12,7 +12,8 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, ViewPanel, name_level, read_before, title};
+use crate::tui::views::chart::{Chart, Curve};
+use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// The view of the gap of every blade.
@@ -37,39 +38,36 @@ impl ViewPanel for GapsView {
         ];
         let name = read_before(look, &mut legend, reading(app), "gaps");
         let inside = title(app, buffer, at, name, &legend);
-        let y = y.evened(inside, look);
-        let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-        at.note(app, plot.inner);
-        plot.level(0.0, look.either('━', '='), look.style(Role::Text));
-        plot.level(app.machine.clearance(), look.either('┈', '.'), quiet);
-        let Some(moment) = app.shown() else { return };
-        let gaps = || (1..=count).map(f64::from).zip(moment.gaps.iter().copied());
+        let mut chart = Chart::new(x, y.evened(inside, look));
+        // With a lining the level of the clearance can be below zero, so it needs a label.
+        let name = if app.has_lining() { "g0" } else { "" };
+        chart.levels = vec![(0.0, "", Role::Text), (app.machine.clearance(), name, Role::Quiet)];
+        chart.read = read_blade(app).map(|blade| f64::from(blade + 1));
+        let moment = app.shown();
+        let gaps: &[f64] = moment.map_or(&[], |moment| &moment.gaps);
+        let known = || (1..=count).map(f64::from).zip(gaps.iter().copied());
+        // The labels of the axis take up to six columns.
+        let room = u32::from(inside.width.saturating_sub(6));
         // There are no values between blades; the line only joins the points.
-        if app.is_still() || count > u32::from(plot.inner.width) {
-            plot.curve(gaps(), &Pen { dashed: false, ..look.quiet() });
-            plot.ink();
+        if app.is_still() || count > room {
+            let pen = Pen { dashed: false, ..look.quiet() };
+            chart.curves.push((pen, Curve::Line(Box::new(known()))));
         }
-        let room = u32::from(plot.inner.width);
+        let shown = |gap: f64| gap.clamp(range.low, range.high);
         if count <= room {
             let sign =
                 if 2 * count <= room { look.either('●', 'o') } else { look.either('•', 'o') };
-            for (blade, gap) in gaps() {
-                plot.point(blade, gap.clamp(range.low, range.high), sign, look.style(Role::First));
-            }
+            let first = look.style(Role::First);
+            chart.points = known().map(|(blade, gap)| (blade, shown(gap), sign, first)).collect();
         }
-        if app.has_lining() {
-            // With a lining the level of the clearance can be below zero, so it needs a label.
-            name_level(&mut plot, x, app.machine.clearance(), "g0", quiet);
-        }
-        let deep = |blade: u32| moment.gaps.get(blade.saturating_sub(1) as usize).copied();
-        for blade in &active_set {
+        for blade in active_set.iter().filter(|_| moment.is_some()) {
             // Contact with a rigid casing is at zero, with a lining at some depth.
-            let gap = deep(*blade).filter(|_| app.has_lining()).unwrap_or(0.0);
-            plot.point(f64::from(*blade), gap.clamp(range.low, range.high), mark, contact);
+            let gap = gaps.get(blade.saturating_sub(1) as usize).filter(|_| app.has_lining());
+            chart.points.push((f64::from(*blade), shown(*gap.unwrap_or(&0.0)), mark, contact));
         }
-        label(&mut plot, &active_set, app);
-        if let Some(blade) = read_blade(app) {
-            plot.upright(f64::from(blade + 1), look.either('┊', ':'), look.style(Role::Focus));
+        let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
+        if moment.is_some() {
+            label(&mut plot, &active_set, app);
         }
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::tui::axis::nice_step;
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
-use crate::tui::views::locked::curves::speed_range;
+use crate::tui::views::steady::locked_curves::speed_range;
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{Allowed, ContactLaw, Scene, keys};
 use rubscope_solver::study::overlay::{Curve, threshold_curves};

@@ -12,10 +12,10 @@ use crate::tui::app::App;
 use crate::tui::axis::number;
 use crate::tui::command::Command;
 use crate::tui::knobs::knob_of;
-use crate::tui::text::{print, wrap};
+use crate::tui::text::wrap;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, not_yet, title};
+use crate::tui::views::panel::{ViewArea, lines_above, not_yet, title};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::{OUT_OF_ROUND, SPEED};
 use rubscope_solver::study::margins::{ChangedVerdict, Margins, VerdictChange};
@@ -46,23 +46,22 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
         return not_yet(app, buffer, inside);
     };
     let role = if old { Role::Quiet } else { Role::Text };
-    let inside = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
     let rows = rows(margins, locked).into_iter();
     let rows = rows.map(|(_, cells)| cells.map(TableCell::Word).into()).collect();
     // Without the headings.
     let lines = Table::with_rows([""; 3].map(Heading::shown), rows).lines(usize::MAX, 1);
-    let lines = lines.into_iter().skip(1);
-    let mut lines: Vec<String> = lines.map(|cells| cells.join(" ")).collect();
+    let lines = lines.into_iter().skip(1).map(|cells| look.spell(&cells.join(" ")));
+    let mut lines: Vec<String> = lines.collect();
     // Every quantity was searched.
     let is_complete = margins.robust.as_ref().is_some_and(|of| of.changes.len() == of.rows);
     if lines.is_empty() && is_complete {
-        lines = wrap(&nothing(app, locked), usize::from(inside.width));
+        let text = look.spell(&nothing(app, locked));
+        lines = wrap(&text, usize::from(inside.width.saturating_sub(1)));
     }
-    for (row, line) in (0..inside.height).zip(&lines) {
-        print(buffer, inside, row, &look.spell(line), look.style(role));
-    }
-    if lines.len() + 1 < usize::from(inside.height) {
-        print(buffer, inside, inside.height - 1, NEXT, look.style(Role::Quiet));
+    let left = lines_above(app, buffer, inside, &lines, role);
+    if left.height > 1 {
+        let last = Rect { y: left.bottom() - 1, height: 1, ..left };
+        lines_above(app, buffer, last, &[NEXT.into()], Role::Quiet);
     }
 }
 

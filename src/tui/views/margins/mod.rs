@@ -1,25 +1,30 @@
 //! View 8: the distance of the run from another verdict, the distance of the scene from every
 //! limit, and the parameters that move each limit most.
 
-mod control;
 pub mod ends;
 pub mod live;
-mod robust;
 mod rows;
 mod survey;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
+use crate::report::margins::robust;
+use crate::report::number::{rounded, speed_unit};
 use crate::report::survey::sheet;
 use crate::report::{Sheet, margins};
 use crate::tui::app::{App, Cursor};
+use crate::tui::axis::number;
 use crate::tui::command::Command;
+use crate::tui::knobs::{knob_of, place_of};
 use crate::tui::text::{first_lines, print, wrap};
 use crate::tui::theme::Role;
+use crate::tui::views::id::ViewId;
 use crate::tui::views::table::{Rows, spelled};
-pub use rows::DIGITS;
-use rows::LEADING;
+use live::LiveMargins;
+use rows::{DIGITS, LEADING};
+use rubscope_solver::scene::{Allowed, Value};
+use rubscope_solver::study::margins::Margins;
 
 /// Columns of the cursor: the limit, and its most influential knobs.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
@@ -27,6 +32,13 @@ pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
 const TOLD_FROM: u16 = 6;
 /// Height from which the description has two lines.
 const TOLD_TWICE_FROM: u16 = 16;
+
+/// Index of the column with the current value.
+const NOW: usize = 2;
+/// Width from which the sentence names the lobes that end a lock \[columns\].
+const WIDE: usize = 70;
+/// Rows of limits that stay visible below on a small screen.
+const LEFT: usize = 6;
 
 /// The view of the margins, or of the survey over all nodal diameters.
 pub struct MarginsView;
@@ -48,7 +60,7 @@ impl ViewPanel for MarginsView {
         let limits = &live.margins.limits;
         let above = Rect { height: inside.height - told, ..inside };
         let head = match at.large && !old {
-            true => robust::draw(app, &live.margins, buffer, above, limits.len()),
+            true => self::head(app, &live.margins, buffer, above, limits.len()),
             false => 0,
         };
         let above = Rect { y: above.y + head, height: above.height - head, ..above };
@@ -72,10 +84,7 @@ impl ViewPanel for MarginsView {
         let width = usize::from(below.width.saturating_sub(1));
         let lines = wrap(&look.spell(&text), width);
         let lines = first_lines(lines, width, usize::from(told), look.ellipsis());
-        let below = Rect { x: below.x + 1, width: below.width.saturating_sub(1), ..below };
-        for (row, line) in (0..told).zip(lines) {
-            print(buffer, below, row, &line, look.style(role));
-        }
+        lines_above(app, buffer, below, &lines, role);
     }
 
     fn grid(&self, app: &App) -> [u32; 2] {
@@ -115,16 +124,96 @@ impl ViewPanel for MarginsView {
     }
 }
 
+impl App {
+    /// Returns the latest margins, and whether they are outdated (another scene or speed range);
+    /// `None` if none were computed yet.
+    pub fn margins(&self) -> Option<(&LiveMargins, bool)> {
+        let live = self.results().found.margins.as_deref()?;
+        let range = live.survey.as_ref().map(|survey| survey.range_rad_s);
+        let other = range.is_some_and(|range| range != self.layout.range);
+        Some((live, other || live.margins.scene != self.scene))
+    }
+
+    /// Switches between the survey over all nodal diameters and the margins of one; from another
+    /// view it opens the survey.
+    pub fn turn_survey(&mut self) {
+        self.show_survey(!(self.is_large(ViewId::Margins) && self.layout.survey));
+    }
+
+    /// Shows the survey over all nodal diameters, or the margins of one.
+    pub fn show_survey(&mut self, on: bool) {
+        self.layout.survey = on;
+        let ends = if speed_unit() == "rpm" { "2000:6000" } else { "200:600" };
+        self.stop_reading();
+        self.walk(ViewId::Margins);
+        self.status = Some(match on {
+            true => {
+                format!("margins of all diameters; : range {ends} gives the speeds of a machine")
+            }
+            false => "margins of n_d alone".to_string(),
+        });
+    }
+
+    /// Sets a knob exactly to a limit and selects it.
+    pub fn jump_to_limit(&mut self, path: &str, value: f64, to: &str) {
+        let Some((place, knob)) = place_of(path).zip(knob_of(path)) else { return };
+        self.knobs.select(place);
+        let value_of = match knob.allowed() {
+            Allowed::Whole { .. } => Value::Whole(value as u64),
+            _ => Value::Real(value),
+        };
+        if self.set(knob, value_of) {
+            let name = knob.label.split(' ').next().unwrap_or(knob.label);
+            let jumped = format!("{name} {}: {to}", number(rounded(value, DIGITS), knob.unit()));
+            // Keep the message about other effects of the turn.
+            let more = self.status.take().map_or(String::new(), |said| format!("; {said}"));
+            self.status = Some(jumped + &more);
+        }
+    }
+}
+
+/// Draws the distance of this run from another verdict at the top of an area, as a sentence and one
+/// row per quantity, under each contact law examined; returns its height. The rows of the second law are shown
+/// only if all `limits` fit below them.
+fn head(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limits: usize) -> u16 {
+    let (look, mut lines) = (&app.appearance, Vec::new());
+    let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
+    for (place, found) in robust::asked(margins).enumerate() {
+        let sentence = robust::sentence(found, margins, width >= WIDE);
+        let sentence = wrap(&look.spell(&sentence), width);
+        let shown = |at| robust::table(found, at).lines(usize::MAX, 1);
+        let wide = |row: &Vec<String>| row.join(" ").chars().count() > width;
+        let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
+        let rows = ways.unwrap_or_else(|| {
+            let mut rows = shown(" ");
+            // The current values are at the knobs too, so drop their column first.
+            rows.iter_mut().for_each(|row| drop(row.remove(NOW)));
+            rows
+        });
+        if lines.len() + sentence.len() + LEFT > height {
+            break;
+        }
+        lines.extend(sentence.into_iter().map(|line| (line, Role::Text)));
+        let below = if place == 0 { LEFT } else { limits + 2 };
+        if lines.len() + rows.len() + below <= height {
+            let role = |row| if row == 0 { Role::Quiet } else { Role::Text };
+            lines.extend(rows.iter().enumerate().map(|(row, cells)| (cells.join(" "), role(row))));
+        }
+    }
+    let at = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
+    for (y, (text, role)) in (0..).zip(&lines) {
+        print(buffer, at, y, &look.spell(text), look.style(*role));
+    }
+    u16::try_from(lines.len()).unwrap_or(area.height)
+}
+
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
-    use super::live::LiveMargins;
     use super::*;
-    use crate::tui::views::ViewId;
     use crate::tui::{Marker, Theme};
     use rubscope_solver::scene::Scene;
-    use rubscope_solver::study::margins::Margins;
 
     fn app() -> App {
         let scene = Scene::base().checked().unwrap();

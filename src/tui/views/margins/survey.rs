@@ -9,10 +9,10 @@ use crate::report::survey::{answer, notes, rows as rows_of};
 use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
-use crate::tui::text::{print, wrap};
+use crate::tui::text::wrap;
 use crate::tui::theme::Role;
 use crate::tui::views::map::sign;
-use crate::tui::views::panel::{ViewArea, not_yet, title};
+use crate::tui::views::panel::{ViewArea, lines_above, not_yet, title};
 use crate::tui::views::table::{Rows, spelled};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::DIAMETERS;
@@ -48,8 +48,7 @@ fn table(
     (survey, cell): (&Survey, Option<usize>),
 ) {
     let look = &app.appearance;
-    let (quiet, rows, width) =
-        (look.style(Role::Quiet), survey.shown(false), usize::from(area.width));
+    let (rows, width) = (survey.shown(false), usize::from(area.width.saturating_sub(1)));
     let (home, now) = (own(app, &rows), app.scene.operation.speed_rad_s);
     let lines = |text: &str| wrap(&look.spell(text), width);
     let mut told = lines(&answer(survey, false));
@@ -61,9 +60,8 @@ fn table(
         let known = if row.guessed { ", no mode of its own" } else { "" };
         told = lines(&format!("n_d {}{known}: Enter takes these diameters", row.nodal_diameters));
     }
-    for (row, line) in (0..height).zip(&told) {
-        print(buffer, area, row, line, look.style(Role::Focus));
-    }
+    told.truncate(usize::from(height));
+    lines_above(app, buffer, area, &told, Role::Focus);
     let drawn = Rows {
         table: spelled(app, rows_of(survey, &rows)),
         cursor: [1, 1],
@@ -73,15 +71,16 @@ fn table(
     };
     let used = drawn.draw(app, buffer, (at, below), |place, column| match rows.get(place) {
         Some(_) if column == 0 && place == home => look.style(Role::Focus),
-        Some(row) if row.guessed => quiet,
+        Some(row) if row.guessed => look.style(Role::Quiet),
         Some(row) if column == 1 && row.locks_at(now) => sign(look, Verdict::Locked).1,
         _ => look.style(Role::Text),
     });
     // Notes follow the table if they fit below an empty row.
     let notes = lines(&notes(survey, &rows).join(" "));
-    let free = (height + used + 1..area.height).zip(&notes);
-    for (row, line) in free.filter(|_| height + used + 1 + notes.len() as u16 <= area.height) {
-        print(buffer, area, row, line, quiet);
+    let top = height + used + 1;
+    if usize::from(top) + notes.len() <= usize::from(area.height) {
+        let area = Rect { y: area.y + top, height: area.height - top, ..area };
+        lines_above(app, buffer, area, &notes, Role::Quiet);
     }
 }
 

@@ -10,18 +10,19 @@ use crate::report::number::{frequency_unit, per_frequency, speed_unit};
 use crate::report::table::{Table, TableCell};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable, round_out};
-use crate::tui::plot::Plot;
-use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{
-    ViewArea, ViewPanel, entry, name_level, name_speeds, not_yet, read_before, title,
-};
+use crate::tui::views::chart::{Chart, Curve, curves, legend};
+use crate::tui::views::panel::{ViewArea, ViewPanel, entry, not_yet, read_before, title};
 use crate::tui::views::spectrum::lines::Spectrum;
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// Ends of the amplitude axis, as powers of ten of a metre.
 const DECADES: (f64, f64) = (-10.0, -3.0);
+/// Number of parts of the speed axis in which the Campbell lines are drawn.
+const SPEEDS: u32 = 60;
+/// What the spectrum is computed from.
+const NOTE: &str = "whole run, Hann window";
 
 /// The view of the spectrum, above the Campbell diagram.
 pub struct SpectrumView;
@@ -45,7 +46,8 @@ impl ViewPanel for SpectrumView {
         });
         let mut sheet = Sheet::new("run", 1, app.view_command(), &app.scene);
         sheet.filed(None, table);
-        sheet.picture(move || figure(app, spectrum));
+        let title = &app.scene.title;
+        sheet.picture(move || Figure::new(title.clone(), NOTE, vec![panel(app, spectrum)]));
         Some(sheet)
     }
 }
@@ -63,8 +65,8 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     ]
 }
 
-/// Returns the spectrum as a figure, over the range of the chart.
-fn figure(app: &App, spectrum: &Spectrum) -> Figure {
+/// Returns the spectrum as a panel, over the range of the chart.
+fn panel(app: &App, spectrum: &Spectrum) -> Panel {
     let (least, highest) = (10_f64.powf(DECADES.0), highest(app));
     let series = |(number, (label, amplitudes)): (usize, (&str, &Vec<f64>))| {
         let points = amplitudes.iter().enumerate();
@@ -77,8 +79,7 @@ fn figure(app: &App, spectrum: &Spectrum) -> Figure {
         label: format!("frequency [{}]", frequency_unit()).into(),
         ..Quantity::new("frequency_rad_s", "", per_frequency(1.0))
     };
-    let panel = Panel::new("", x, Quantity::log("u_m", "amplitude [m]"), series.collect());
-    Figure::new(app.scene.title.clone(), "whole run, Hann window", vec![panel])
+    Panel::new("", x, Quantity::log("u_m", "amplitude [m]"), series.collect())
 }
 
 /// Returns the end of the frequency axis \[rad/s\].
@@ -92,34 +93,19 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let quiet = look.style(Role::Quiet);
     let x = ChartAxis::frequencies(0.0, highest(app));
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
-    let spectrum = app.results().found.spectrum.as_ref();
-    let mut legend = vec![(format!("m by {}", frequency_unit()), quiet)];
-    legend.extend([entry(look, &look.first(), "u_c"), entry(look, &look.second(), "u_s")]);
+    let spectrum = app.results().found.spectrum.as_deref();
+    let panel = spectrum.map(|spectrum| panel(app, spectrum));
+    let mut entries = vec![(format!("m by {}", frequency_unit()), quiet)];
+    entries.extend(panel.iter().flat_map(|panel| legend(look, panel)).flatten());
     let read = cursor.and_then(|frequency| reading(spectrum?, frequency));
-    let name = read_before(look, &mut legend, read, "spectrum");
-    legend.push(("whole run, Hann window".to_string(), quiet));
-    let inside = title(app, buffer, at, name, &legend);
-    let Some(spectrum) = spectrum else {
-        return not_yet(app, buffer, inside);
-    };
-    let y = ChartAxis::powers(DECADES.0, DECADES.1, None);
-    let Some(mut plot) = Plot::new(buffer, inside, x, y, look) else { return };
-    at.note(app, plot.inner);
+    let name = read_before(look, &mut entries, read, "spectrum");
+    entries.push((NOTE.to_string(), quiet));
+    let inside = title(app, buffer, at, name, &entries);
+    let Some(panel) = panel else { return not_yet(app, buffer, inside) };
     let marks = lines(app, app.speed());
-    for (frequency, _) in marks {
-        plot.upright(frequency, look.either('┊', ':'), quiet);
-    }
-    if let Some(frequency) = cursor {
-        plot.upright(frequency, look.either('┊', ':'), look.style(Role::Focus));
-    }
-    for (series, pen) in [(&spectrum.sine, look.second()), (&spectrum.cosine, look.first())] {
-        let points = series.iter().enumerate().map(|(k, amplitude)| {
-            (k as f64 * spectrum.resolution, amplitude.max(1e-30).log10().max(DECADES.0))
-        });
-        plot.curve(points.take_while(|(w, _)| *w <= x.high), &pen);
-    }
-    plot.ink();
-    name_speeds(&mut plot, &marks, app);
+    let mut chart = Chart::new(x, ChartAxis::powers(DECADES.0, DECADES.1, None));
+    (chart.marks, chart.read, chart.curves) = (&marks, cursor, curves(look, &panel));
+    chart.draw(app, buffer, at, inside);
 }
 
 /// Describes the spectral line nearest to a frequency \[rad/s\]; `None` beyond the last line.
@@ -146,27 +132,17 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     // The speed axis covers the current direction of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };
     let x = ChartAxis::speeds((sense * fastest).min(0.0), (sense * fastest).max(0.0));
-    let Some(mut plot) = Plot::new(buffer, inside, x, ChartAxis::frequencies(0.0, top), look)
-    else {
-        return;
-    };
-    at.note(app, plot.inner);
-    plot.level(app.machine.omega_c, look.either('┈', '.'), look.style(Role::Text));
-    plot.upright(app.speed(), look.either('│', '|'), look.style(Role::Focus));
-    let pens: [Pen; 4] = [look.first(), look.quiet(), look.second(), look.second()];
-    for (place, pen) in pens.iter().enumerate().filter(|(place, _)| *place != 1).rev() {
-        let speeds = plot.column_values();
-        let curve = speeds.iter().filter_map(|speed| {
-            let (frequency, _) = *lines(app, *speed).get(place)?;
-            (frequency <= top).then_some((*speed, frequency))
-        });
-        plot.curve(curve, pen);
+    let mut chart = Chart::new(x, ChartAxis::frequencies(0.0, top));
+    (chart.levels, chart.now) =
+        (vec![(app.machine.omega_c, "ω_c", Role::Quiet)], Some(app.speed()));
+    for (pen, place) in [(look.first(), 0), (look.second(), 2), (look.second(), 3)] {
+        let speeds = (0..=SPEEDS).map(move |k| x.at(f64::from(k) / f64::from(SPEEDS)));
+        let points = speeds.map(move |speed| (speed, lines(app, speed)[place].0));
+        chart.curves.push((pen, Curve::Line(Box::new(points))));
     }
-    plot.ink();
-    let crossings =
-        app.machine.coincidence_speeds().into_iter().chain(app.machine.critical_speed());
-    for speed in crossings {
-        plot.point(sense * speed, app.machine.omega_c, meet, look.style(Role::Contact));
-    }
-    name_level(&mut plot, x, app.machine.omega_c, &look.spell("ω_c"), look.style(Role::Text));
+    let meets = app.machine.coincidence_speeds().into_iter().chain(app.machine.critical_speed());
+    let contact = look.style(Role::Contact);
+    let meets = meets.map(|speed| (sense * speed, app.machine.omega_c, meet, contact));
+    chart.points = meets.collect();
+    chart.draw(app, buffer, at, inside);
 }

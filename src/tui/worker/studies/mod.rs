@@ -12,11 +12,11 @@ use study::{Given, Job, Study, StudySlot, Work};
 
 use crate::tui::engine::{Found, Order, SLICE, Working};
 use crate::tui::film::Film;
-use crate::tui::views::coincidence::curves::CoincidenceCurves;
 use crate::tui::views::id::ViewId;
-use crate::tui::views::locked::curves::LockedCurves;
 use crate::tui::views::margins::live::LiveMargins;
 use crate::tui::views::spectrum::lines::Spectrum;
+use crate::tui::views::steady::coincidence_curves::CoincidenceCurves;
+use crate::tui::views::steady::locked_curves::LockedCurves;
 use crate::tui::worker::background::on_spare_cores;
 use rubscope_solver::scene::{CheckedScene, Scene};
 use rubscope_solver::study::margins::Margins;

@@ -1,0 +1,205 @@
+//! View 3: the multipliers of the locked motion over speed, with threshold speeds, the current
+//! speed, and the forces of the running motion. If there is room, blade angles and amplitudes
+//! follow below over the same speeds (the paper's Fig. 10).
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Constraint, Layout};
+
+use super::locked_curves::LockedCurves;
+use super::{NAMED_FROM, SpeedChart, Speeds, present};
+use crate::report::Sheet;
+use crate::report::hbm::locked::add_points;
+use crate::report::number::speed_unit;
+use crate::tui::app::layout::LEAST_ROWS;
+use crate::tui::app::reading::STEP;
+use crate::tui::app::{App, Cursor};
+use crate::tui::axis::{ChartAxis, readable};
+use crate::tui::text::print;
+use crate::tui::theme::Role;
+use crate::tui::views::ViewId;
+use crate::tui::views::panel::{ViewArea, ViewPanel, entry, not_yet, title};
+use rubscope_solver::harmonic::{Form, lock_windows, locked_motion};
+use rubscope_solver::motion::{ActiveSet, Verdict};
+use rubscope_solver::study::figures::{Panel, Series, Style};
+
+/// Height from which the large chart also shows the undamped curve of the paper.
+const ROOMY: u16 = 14;
+/// Names, units and remarks of the panels of the sheet.
+const PANELS: [[&str; 3]; 3] = [
+    ["locked λ(Ω)", "N", "below 0 pushes"],
+    ["locked α(Ω)", "rad", "one blade of each group"],
+    ["locked u(Ω)", "m", "u_ss = u_cc, u_sc = -u_cs"],
+];
+
+/// The view of the locked motion over speed.
+pub struct LockedView;
+
+impl ViewPanel for LockedView {
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
+        let curves = app.results().found.locked.as_deref();
+        let (Some(curves), Some(sheet)) = (curves, self.sheet(app)) else {
+            return nothing(app, buffer, at);
+        };
+        let mut panels = sheet.panels();
+        panels.truncate(usize::from(at.area.height / LEAST_ROWS).max(1));
+        let below = u16::try_from(panels.len()).unwrap_or(1) - 1;
+        let lower = (at.area.height * 2 / (3 + 2 * below)).max(LEAST_ROWS);
+        let rows = std::iter::once(Constraint::Min(1));
+        let rows = rows.chain((0..below).map(|_| Constraint::Length(lower)));
+        let areas = Layout::vertical(rows).split(at.area);
+        for ((panel, area), [name, unit, note]) in panels.iter_mut().zip(&*areas).zip(PANELS) {
+            let at = ViewArea { area: *area, ..at };
+            let (mut now, mut text) = (Vec::new(), None);
+            let mut notes = vec![note];
+            let is_first = unit == "N";
+            if is_first {
+                name_multipliers(app, curves, panel);
+                now = running(app);
+                notes.extend(app.has_lining().then_some("of a rigid casing"));
+                notes.extend((app.machine.out_of_round() != 0.0).then_some("of a round casing"));
+                notes.extend(app.tuned_note());
+                let read = speeds(curves).read(app).filter(|_| at.large);
+                text = read.map(|speed| (reading(app, speed), Role::Focus));
+            }
+            // The scale follows the curves, because the mean force over an impact can be far
+            // outside.
+            let points = panel.series.iter().flat_map(|series| &series.points);
+            let y = ChartAxis::around(points.filter(|at| curves.scales(at.0)).map(|at| at.1));
+            if let Some(undamped) = curves.undamped.as_ref().filter(|_| is_first)
+                && at.large
+                && at.area.height >= ROOMY
+            {
+                let points = undamped.points.iter();
+                let points = points.map(|point| (point.speed_rad_s, point.multipliers_n[0]));
+                panel.series.push(Series::new("undamped", Style::Dotted(0), points));
+            }
+            let name = if is_first && at.area.width < NAMED_FROM { "λ(Ω)" } else { name };
+            let (now, beyond) = (is_first.then_some(now.as_slice()), Vec::new());
+            let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
+            speeds(curves).draw(app, buffer, at, chart);
+        }
+    }
+
+    fn here(&self, app: &App) -> Cursor {
+        let curves = app.results().found.locked.as_deref();
+        curves.map_or(Cursor { across: 0.5, up: 0.5 }, |curves| speeds(curves).here(app))
+    }
+
+    fn text(&self, app: &App) -> String {
+        reading(app, app.speed().abs())
+    }
+
+    fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
+        let damped = app.results().found.locked.as_ref()?.damped.as_ref()?;
+        let mut sheet = Sheet::new("hbm", 3, app.view_command(), &app.scene);
+        add_points(&damped.points, &mut sheet);
+        Some(sheet)
+    }
+}
+
+fn speeds(curves: &LockedCurves) -> Speeds<'_> {
+    Speeds { view: ViewId::Locked, range: [0.0, curves.fastest], marks: &curves.marks }
+}
+
+/// Names the multipliers, and adds that of the stable whirl. Without damping, equal tips have equal
+/// multipliers: one curve is enough.
+fn name_multipliers(app: &App, curves: &LockedCurves, panel: &mut Panel) {
+    let uneven = app.machine.has_unequal_tips();
+    if !uneven && curves.undamped.is_none() {
+        panel.series.truncate(1);
+        panel.series.iter_mut().for_each(|series| series.label = "λ".into());
+    }
+    let sides = curves.damped.iter().filter(|_| uneven).flat_map(|sweep| sweep.corner.sides());
+    for (series, side) in panel.series.iter_mut().zip(sides) {
+        series.label = format!("{} {}", series.label, app.blades_of([side].into_iter()));
+    }
+    if !curves.whirl.is_empty() {
+        let whirl = curves.whirl.iter().copied();
+        panel.series.push(Series::new("whirl", Style::Dashed(2), whirl));
+    }
+}
+
+/// Says why there is no curve.
+fn nothing(app: &App, buffer: &mut Buffer, at: ViewArea) {
+    let look = &app.appearance;
+    let unit = (format!("N over {}", speed_unit()), look.style(Role::Quiet));
+    let legend = [unit, entry(look, &look.first(), "λ"), present(app, &running(app))];
+    let inside = title(app, buffer, at, PANELS[0][0], &legend);
+    let text = if app.results().found.locked.is_none() {
+        return not_yet(app, buffer, inside);
+    } else if app.is_pressed() {
+        "all blades rub at rest: nothing locks; view 9 shows what grows"
+    } else if app.machine.has_other_diameters() {
+        "the disk has other diameters than the casing: no pair of blades locks"
+    } else if app.machine.has_unequal_tips() {
+        "no lock speed is known for these tips; a run shows a lock"
+    } else {
+        "no corner between two blade groups: this wave never locks"
+    };
+    print(buffer, inside, 1, text, look.style(Role::Quiet));
+}
+
+/// Returns the mean multipliers of the running motion \[N\] with their text; negative pushes. Empty
+/// without contact.
+fn running(app: &App) -> Vec<(f64, String)> {
+    let Some(moment) = &app.run.latest.moment else { return Vec::new() };
+    if moment.active_set == ActiveSet::Nothing {
+        return Vec::new();
+    }
+    let forces = moment.multipliers.iter().map(|(_, force)| *force);
+    forces.filter(|force| force.is_finite()).map(|force| (force, short(force))).collect()
+}
+
+/// Formats a force in newtons without decimals, from 10 kN on in thousands: `12k`.
+fn short(force: f64) -> String {
+    if force.abs() < 1e4 { format!("{force:.0}") } else { format!("{:.0}k", force / 1e3) }
+}
+
+/// Describes the locked motion at one speed, solved for that speed.
+pub fn reading(app: &App, speed: f64) -> String {
+    let speed = speed.copysign(app.speed());
+    let at = format!("at {}: ", readable(speed, "rad/s"));
+    let sweep = locked_motion(&app.machine, Form::Modal, true, None, &[speed]);
+    let Some(point) = sweep.ok().and_then(|sweep| sweep.points.first().copied()) else {
+        return at + "no locked motion";
+    };
+    let value = |name: &str, value: f64, unit: &str| format!("{name} {}", readable(value, unit));
+    let ([a, b], [turn_a, turn_b]) = (point.multipliers_n, point.alpha_rad);
+    let ratio = point.amplitude_m / app.machine.clearance();
+    // With a lining the forces are different; only the speed range of the lock is known here.
+    let lining = app.has_lining();
+    let on_lining = || lock_windows(&app.machine, speed).iter().any(|lock| lock.has(speed.abs()));
+    let can_last = if lining { on_lining() } else { point.admissible && point.stable };
+    let holds = match (a > 0.0 || b > 0.0, point.admissible, point.stable) {
+        _ if lining && can_last => "for a rigid casing; on the lining a lock can last",
+        _ if lining => "for a rigid casing; the lining holds no lock here",
+        (true, ..) if !app.machine.contact_can_pull() => "one pulls: no lock",
+        (true, ..) => "one pulls: only an adhesive lock",
+        (_, true, true) => "both push: a lock can last",
+        (_, true, false) => "both push, but it is unstable",
+        _ => "another blade would touch",
+    };
+    let parts = [
+        value("λ_a", a, "N"),
+        value("λ_b", b, "N"),
+        holds.to_string(),
+        not_this_run(app, can_last).unwrap_or_default(),
+        format!("|u| {ratio:.4} g0"),
+        value("α_a", turn_a, "rad"),
+        value("α_b", turn_b, "rad"),
+        value("u_cc", point.u_cc_m, "m"),
+        value("u_cs", point.u_cs_m, "m"),
+    ];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    at + &parts.join(", ")
+}
+
+/// Notes that the run at this speed does not reach the lock, with its verdict. `None` if it does,
+/// if no lock can last here, if the cursor is at another speed, and without a verdict to show.
+fn not_this_run(app: &App, can_last: bool) -> Option<String> {
+    let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
+    let run = app.full_run().filter(|_| can_last && !app.is_asked())?;
+    let elsewhere = (cursor.across - here.across).abs() > 0.5 * STEP;
+    let locks = matches!(run.verdict, Verdict::Locked | Verdict::Adhesive);
+    (!elsewhere && !locks).then(|| format!("but this run: {}", run.verdict.as_ref().to_uppercase()))
+}

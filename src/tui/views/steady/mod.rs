@@ -1,0 +1,121 @@
+//! Curves over the magnitude of the speed, with marked speeds, the present one, and a cursor that
+//! reads the state at a speed: the locked motion (view 3) and the coincidence (view 9).
+
+pub mod coincidence;
+pub mod coincidence_curves;
+pub mod locked;
+pub mod locked_curves;
+
+use ratatui::buffer::Buffer;
+use ratatui::style::Style;
+
+use crate::report::number::speed_unit;
+use crate::tui::app::{App, Cursor};
+use crate::tui::axis::ChartAxis;
+use crate::tui::text::whole_parts;
+use crate::tui::theme::Role;
+use crate::tui::views::ViewId;
+use crate::tui::views::chart::{Chart, curves, legend};
+use crate::tui::views::panel::{ViewArea, lines_above, title};
+use rubscope_solver::study::figures::Panel;
+
+/// Largest number of rows for the text above a chart.
+const MOST_ROWS: usize = 3;
+/// Width from which the title has room for the present values. A narrower chart prints them at
+/// their points \[columns\].
+const NAMED_FROM: u16 = 46;
+
+/// The speeds of a view.
+struct Speeds<'a> {
+    view: ViewId,
+    /// Ends of the range, as magnitudes \[rad/s\].
+    range: [f64; 2],
+    marks: &'a [(f64, &'static str)],
+}
+
+/// A chart over the speeds of a view.
+struct SpeedChart<'a> {
+    name: &'a str,
+    panel: &'a Panel,
+    y: ChartAxis,
+    unit: &'a str,
+    /// Values of the running motion, none without contact; `None` if they are not shown.
+    now: Option<&'a [(f64, String)]>,
+    /// Magnitudes of the speeds at which the curve is beyond the chart \[rad/s\].
+    beyond: Vec<f64>,
+    /// Remarks in the legend.
+    notes: Vec<&'a str>,
+    /// Text above the chart.
+    text: Option<(String, Role)>,
+}
+
+impl Speeds<'_> {
+    /// Returns a cursor at the present speed.
+    fn here(&self, app: &App) -> Cursor {
+        let [from, to] = self.range;
+        Cursor { across: ((app.speed().abs() - from) / (to - from)).clamp(0.0, 1.0), up: 0.5 }
+    }
+
+    /// Returns the magnitude of the speed under the cursor \[rad/s\]; `None` without a cursor in the
+    /// view.
+    fn read(&self, app: &App) -> Option<f64> {
+        let [from, to] = self.range;
+        app.cursor_in(self.view).map(|cursor| from + cursor.across * (to - from))
+    }
+
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea, what: SpeedChart) {
+        let look = &app.appearance;
+        let [quiet, contact] = [Role::Quiet, Role::Contact].map(|role| look.style(role));
+        let point = look.either('◆', '@');
+        let unit = format!("{}{} over {}", what.y.scale.prefix, what.unit, speed_unit());
+        let mut entries = vec![(unit, quiet)];
+        let [lines, dotted] = legend(look, what.panel);
+        entries.extend(lines);
+        entries.extend(what.now.map(|now| present(app, now)));
+        entries.extend(what.notes.iter().map(|note| (note.to_string(), quiet)));
+        entries.extend(dotted);
+        if app.speed() < 0.0 {
+            entries.push(("over |Ω|, turning backwards".into(), quiet));
+        }
+        let mut inside = title(app, buffer, at, what.name, &entries);
+        if let Some((text, role)) = what.text {
+            let width = usize::from(inside.width).saturating_sub(1);
+            // The chart keeps at least three quarters of the rows.
+            let most = MOST_ROWS.min(usize::from(inside.height / 4)).max(1);
+            let lines = whole_parts(&look.spell(&text), width, most);
+            inside = lines_above(app, buffer, inside, &lines, role);
+        }
+        let y = what.y.evened(inside, look);
+        let mut chart = Chart::new(ChartAxis::speeds(self.range[0], self.range[1]), y);
+        chart.levels.push((0.0, "", Role::Quiet));
+        (chart.marks, chart.read, chart.now) =
+            (self.marks, self.read(app), Some(app.speed().abs()));
+        chart.curves = curves(look, what.panel);
+        let speed = app.speed().abs();
+        let place = |value: f64| match value {
+            below if below < y.low => (look.either('▼', 'v'), y.low),
+            above if above > y.high => (look.either('▲', '^'), y.high),
+            _ => (point, value),
+        };
+        let now = what.now.unwrap_or_default();
+        let places = now.iter().map(|(value, _)| place(*value));
+        let beyond = what.beyond.into_iter();
+        let up = (look.either('▲', '^'), look.style(Role::Trouble));
+        chart.points = beyond.map(|speed| (speed, y.high, up.0, up.1)).collect();
+        chart.points.extend(places.map(|(sign, value)| (speed, value, sign, contact)));
+        let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
+        for (value, text) in now.iter().filter(|_| at.area.width < NAMED_FROM) {
+            if let Some(row) = plot.row(place(*value).1) {
+                plot.free_note(speed, row, text, contact);
+            }
+        }
+    }
+}
+
+/// Returns the legend of the values of the running motion; of many contacts it has the first two.
+fn present(app: &App, now: &[(f64, String)]) -> (String, Style) {
+    let (look, now) = (&app.appearance, now.iter().take(2).map(|(_, text)| text.as_str()));
+    let now: Vec<&str> = now.collect();
+    let now = if now.is_empty() { "no contact".to_string() } else { now.join(" ") };
+    (format!("{} now {now}", look.either('◆', '@')), look.style(Role::Contact))
+}
