@@ -177,28 +177,11 @@ impl Disk {
         (energy * (1.0 / least + 0.25 / (1.0 - 0.25 * most))).sqrt()
     }
 
-    /// Returns whether a blade of a pair may turn beyond the largest angle between now and when the modes
-    /// will be at `after`, a small part of a period later.
-    pub fn may_pass_largest(&self, after: [Coordinate; 2]) -> bool {
-        let now = self.coordinates_of_pair();
-        let square = |[c, s]: [Coordinate; 2]| c.x * c.x + s.x * s.x;
-        // Within an eighth of a radian the square of a free amplitude passes its ends by half a
-        // hundredth.
-        let most = (1.0 + ANGLE_LOOK * ANGLE_LOOK) * square(now).max(square(after));
-        if most <= self.largest * self.largest {
-            return false;
-        }
-        // Between two ends from which it does not fall and to which it does not rise, an angle is
-        // below one of them.
-        let grows = |[c, s]: [Coordinate; 2], (cos, sin): (f64, f64)| {
-            (cos * c.x + sin * s.x) * (cos * c.increment + sin * s.increment)
-        };
-        let phases = &self.fixed.phases;
-        let passes = |side| {
-            let direction = phases.direction(side);
-            grows(now, direction) > 0.0 && grows(after, direction) < 0.0
-        };
-        (0..phases.sides).any(passes)
+    /// Records the largest blade angle of a pair with these modes, and returns it \[rad\].
+    pub fn see_pair(&mut self, [c, s]: [Coordinate; 2]) -> f64 {
+        let angle = self.fixed.phases.largest_component_near(c.x, s.x, &mut self.widest);
+        self.largest = self.largest.max(angle);
+        angle
     }
 }
 

@@ -373,6 +373,14 @@ impl Disk {
         [0, 1].map(|m| if known(m) { self.at(m) } else { Coordinate::default() })
     }
 
+    /// Returns the coordinates of a pair after so many free steps.
+    pub fn flown_pair(&self, steps: u64) -> [Coordinate; 2] {
+        let modes = self.modes_of_pair();
+        [0, 1].map(|m| {
+            modes.get(m).map_or_else(Coordinate::default, |mode| mode.fly(self.at(m), steps))
+        })
+    }
+
     /// Sets the coordinates of a pair.
     pub fn set_pair(&mut self, coordinates: [Coordinate; 2]) {
         for (m, at) in coordinates.into_iter().enumerate().take(self.oscillators.len()) {
@@ -390,15 +398,10 @@ impl Disk {
         self.oscillators.iter().map(Oscillator::turn).fold(0.0, f64::max)
     }
 
-    /// Returns the change of each mode in a free step, `[x, increment]` by `[x, increment]`.
-    pub fn changes_of_modes(&self) -> Vec<[f64; 4]> {
-        self.oscillators.iter().map(Oscillator::change).collect()
-    }
-
-    /// Takes many free steps at once, whose change of each mode is given.
-    pub fn fly(&mut self, changes: &[[f64; 4]]) {
-        for (m, change) in changes.iter().enumerate() {
-            self.put(m, self.at(m).changed(change));
+    /// Takes many free steps at once.
+    pub fn fly(&mut self, steps: u64) {
+        for m in 0..self.oscillators.len() {
+            self.put(m, self.oscillators[m].fly(self.at(m), steps));
         }
         if !self.fixed.is_pair {
             (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);

@@ -36,7 +36,7 @@ pub(super) struct Coordinate {
 impl Coordinate {
     /// Returns the state after a change, given as a matrix on `[x, increment]` minus 1.
     #[inline]
-    pub fn changed(self, [a, b, c, d]: &[f64; 4]) -> Self {
+    fn changed(self, [a, b, c, d]: [f64; 4]) -> Self {
         let Self { x, increment } = self;
         Self { x: x + a * x + b * increment, increment: increment + c * x + d * increment }
     }
@@ -86,6 +86,32 @@ impl Oscillator {
     /// Returns the matrix of a free step minus 1, on `[x, increment]`.
     pub fn change(&self) -> [f64; 4] {
         [-self.pull, self.ratio, -self.pull, -self.loss]
+    }
+
+    /// Returns the state after so many free steps, by the powers of two of one step: the square
+    /// `(1 + S)^2 = 1 + (2 S + S^2)` keeps the digits of a small change `S`.
+    pub fn fly(&self, mut at: Coordinate, steps: u64) -> Coordinate {
+        let (mut change, mut left) = (self.change(), steps);
+        while left > 0 {
+            if left & 1 == 1 {
+                at = at.changed(change);
+            }
+            let [a, b, c, d] = change;
+            change = [
+                2.0 * a + a * a + b * c,
+                2.0 * b + a * b + b * d,
+                2.0 * c + c * a + d * c,
+                2.0 * d + c * b + d * d,
+            ];
+            left >>= 1;
+        }
+        at
+    }
+
+    /// Returns a bound on the second difference of a free coordinate whose amplitude is never above
+    /// `reach`: it is `-pull x - loss increment`.
+    pub fn bend(&self, reach: f64) -> f64 {
+        (self.pull + self.loss * self.pull.sqrt()) * reach
     }
 
     /// Returns twice the discrete energy, `m (increment/h)^2 + k x[n] x[n-1]`, which free steps

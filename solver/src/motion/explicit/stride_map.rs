@@ -30,11 +30,13 @@
 //! d(force) = n_j dp_j + p_j n_d t_j dalpha_j,    d(arm) = n_d (n_j x dz) - n_d^2 (n_j z) dalpha_j,
 //! ```
 //!
-//! and leaves out the square of `n_d dalpha`.
+//! and leaves out the square of `n_d dalpha`, which a stride keeps below [`SMALL_TURN`].
+
+use std::sync::OnceLock;
 
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
-use super::oscillator::Oscillator;
+use super::oscillator::{Coordinate, Oscillator};
 use super::step::NEIGHBOUR_DEPTHS;
 use crate::motion::Plane;
 
@@ -48,14 +50,18 @@ const WHOLE: usize = SIZE + 1 + HELD;
 /// steps.
 const LONGEST: usize = 20;
 pub(super) const SHORTEST: usize = 3;
+/// Largest rotation `n_d alpha` of held tips since their map was computed; the map neglects its square
+/// \[rad\].
+const SMALL_TURN: f64 = 3e-6;
 
 pub(super) type State = SVector<f64, SIZE>;
 type Square = SMatrix<f64, SIZE, SIZE>;
 type Whole = SVector<f64, WHOLE>;
+type Change = SMatrix<f64, WHOLE, WHOLE>;
 /// A function of each held tip, linear in the state.
 type OfTips = SMatrix<f64, HELD, SIZE>;
 
-/// A held tip in the blade frame, at the state predicted from the reference.
+/// A held tip in the blade frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeldTip {
     /// \[m\]
@@ -65,6 +71,26 @@ pub(super) struct HeldTip {
     /// Derivative of the gap by the blade angle \[m\], and the shapes of the two modes.
     pub arm: f64,
     pub shape: [f64; 2],
+}
+
+impl HeldTip {
+    /// Returns whether two tips are equal within round-off.
+    fn is_near(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-13;
+        (self.gap - other.gap).abs() <= 1e-14 * self.gap.abs()
+            && near(self.normal.re, other.normal.re)
+            && near(self.normal.im, other.normal.im)
+            && self.shape == other.shape
+    }
+}
+
+/// A stride that a map allows from some state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Safe {
+    pub steps: u64,
+    /// Bound on how far a blade angle between both ends lies from the straight line between its
+    /// values there \[rad\].
+    pub sag: f64,
 }
 
 /// A function of the state that must keep its sign over a stride.
@@ -77,16 +103,22 @@ struct Sign {
 }
 
 /// The affine map of a step for one set of held tips, and its powers.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct StrideMap {
+    /// The held tips, the casing and the blades at rest.
+    tips: Vec<HeldTip>,
     /// State from which deviations are counted.
-    pub reference: State,
-    /// `A^(2^j) - 1`, with `A` the map of the whole state.
-    changes: Vec<SMatrix<f64, WHOLE, WHOLE>>,
+    reference: State,
+    /// `A^(2^j) - 1`, with `A` the map of the whole state, once asked for.
+    changes: [OnceLock<Box<Change>>; LONGEST + 1],
     /// `|E x|` is the norm of a state.
     units: Square,
     /// `L^2 |T|^L / 8` of each power: bound on the deviation of a function from its straight line.
-    limits: Vec<f64>,
+    limits: [f64; LONGEST + 1],
+    /// Nodal diameters of the wave, where blades turn the tips that they hold; else 0.
+    diameters: f64,
+    /// Bound on the second difference of a blade angle, as in `Sign`.
+    angle_bend: f64,
     /// Predicted casing position; `bend` as in `Sign`.
     place: SMatrix<f64, 2, SIZE>,
     place_bend: f64,
@@ -97,16 +129,20 @@ pub(super) struct StrideMap {
 
 impl StrideMap {
     /// The map of a step from states near `reference` with these tips held, at most two, in a frame
-    /// that turns by `turn` in a step \[rad\], for waves of `diameters` nodal diameters. None where
-    /// the tips depend on each other.
+    /// that turns by `turn` in a step \[rad\], for waves of `diameters` nodal diameters; `ahead`
+    /// gives a tip at a state. None where the tips depend on each other.
     pub fn new(
         casing: &Oscillator,
         modes: &[Oscillator],
         (turn, diameters): (f64, f64),
-        tips: &[HeldTip],
+        tips: Vec<HeldTip>,
         reference: State,
+        ahead: impl Fn(usize, &State) -> HeldTip,
     ) -> Option<Self> {
         let predict = change_of_prediction(casing, modes, turn);
+        let predicted = reference + predict * reference;
+        let at_rest = tips;
+        let tips: Vec<HeldTip> = (0..at_rest.len()).map(|tip| ahead(tip, &predicted)).collect();
 
         // Gaps of the held tips, Eq. (9), and what their pushes move, Eq. (13).
         let mut gaps = OfTips::zeros();
@@ -129,27 +165,22 @@ impl StrideMap {
         (tips.len()..HELD).for_each(|i| contact[(i, i)] = 1.0);
         let inverse = contact.try_inverse()?;
         let at_reference = inverse * depths;
-        let ahead = reference + predict * reference;
-        let z = Plane::new(ahead[0], ahead[1]);
+        let z = Plane::new(predicted[0], predicted[1]);
         let (apart, turning) =
-            turn_of_tips(casing, modes, diameters, tips, [at_reference[0], at_reference[1]], z);
+            turn_of_tips(casing, modes, diameters, &tips, [at_reference[0], at_reference[1]], z);
 
         // Multipliers, Eq. (13a), and the whole step, as deviations from the reference.
         let gaps_apart = gaps + apart;
         let pushes = -(inverse * (gaps_apart + gaps_apart * predict));
         let map_change = predict + turning + turning * predict + moves * pushes;
         let shift = predict * reference + moves * at_reference;
-        let mut change = SMatrix::<f64, WHOLE, WHOLE>::zeros();
+        let mut change = Box::new(Change::zeros());
         change.fixed_view_mut::<SIZE, SIZE>(0, 0).copy_from(&map_change);
         change.fixed_view_mut::<SIZE, 1>(0, SIZE).copy_from(&shift);
         change.fixed_view_mut::<HELD, SIZE>(SIZE + 1, 0).copy_from(&pushes);
         change.fixed_view_mut::<HELD, 1>(SIZE + 1, SIZE).copy_from(&at_reference);
-        // (1 + S)^2 = 1 + (2 S + S^2) keeps the digits of a small change S.
-        let mut changes = vec![change];
-        for _ in 0..LONGEST {
-            change = change * 2.0 + change * change;
-            changes.push(change);
-        }
+        let changes: [OnceLock<Box<Change>>; LONGEST + 1] = Default::default();
+        changes[0].get_or_init(|| change);
 
         let units = energy_units(casing, modes, diameters);
         let back = units.try_inverse()?;
@@ -176,15 +207,31 @@ impl StrideMap {
             pushes: (0..tips.len()).map(|i| sign(&pushes, &at_reference, i)).collect(),
             depths: (0..tips.len()).map(|i| sign(&by_depths, &depths, i)).collect(),
             place_bend: (place * bend).norm(),
+            angle_bend: if modes.is_empty() { 0.0 } else { bend.fixed_rows::<2>(4).norm() },
+            diameters: if modes.is_empty() { 0.0 } else { diameters },
+            tips: at_rest,
             reference,
-            limits: (0..=LONGEST).map(limit).collect(),
             changes,
             units,
+            limits: std::array::from_fn(limit),
             place,
         })
     }
 
-    /// Returns the longest safe stride found, as an exponent of two; none where it is not worth it.
+    /// Returns whether it is the map of these tips for states near this one.
+    pub fn serves(&self, tips: &[HeldTip], state: &State) -> bool {
+        self.tips.len() == tips.len()
+            && self.tips.iter().zip(tips).all(|(own, tip)| own.is_near(tip))
+            && 2.0 * self.turned(&(state - self.reference)) < SMALL_TURN
+    }
+
+    /// Returns a bound on the rotation of held tips by their blades that this deviation means
+    /// \[rad\].
+    fn turned(&self, deviation: &State) -> f64 {
+        self.diameters * (deviation[4].abs() + deviation[5].abs())
+    }
+
+    /// Returns the longest safe stride of at most so many steps; none where it is not worth it.
     /// `open` is the least gap of all tips that are not held and not turned, for a place of the
     /// casing \[m\]; `turned` bounds the phase `n_d alpha` that blades turn them \[rad\].
     /// Held tips must penetrate at each prediction, and push, or pull where they may.
@@ -193,42 +240,44 @@ impl StrideMap {
         state: &State,
         may_pull: bool,
         turned: f64,
+        most: u64,
         open: impl Fn(Plane) -> f64,
-    ) -> Option<usize> {
+    ) -> Option<Safe> {
         let from = self.whole(state);
-        let change = (self.changes.first()? * from).fixed_rows::<SIZE>(0).into_owned();
+        let change = (self.change(0) * from).fixed_rows::<SIZE>(0).into_owned();
         let speed = (self.units * change).norm();
         // A push may close another gap by a multiple of its own depth, and the rotation of a tip by
         // its blade reduces the gap.
         let depth_bend = self.depths.iter().fold(0.0, |most, depth| f64::max(most, depth.bend));
         let open_bend = self.place_bend * (1.0 + 2.0 * turned) + NEIGHBOUR_DEPTHS * depth_bend;
+        let pushes = self.pushes.iter().map(|push| {
+            let pulls = may_pull && push.by.dot(&from) < 0.0;
+            (push, if pulls { -1.0 } else { 1.0 })
+        });
+        let signs = pushes.chain(self.depths.iter().map(|depth| (depth, 1.0)));
+        // How far functions may lie off their straight lines, per unit of `bend`, if this is an end.
         let room = |whole: &Whole| {
-            let place = self.place * (whole.fixed_rows::<SIZE>(0) + self.reference);
+            let deviation = whole.fixed_rows::<SIZE>(0).into_owned();
+            let place = self.place * (deviation + self.reference);
             let nearer = turned * (place.x.abs() + place.y.abs());
             let closed = NEIGHBOUR_DEPTHS * self.deepest_of(whole);
-            open(Plane::new(place.x, place.y)) - nearer - closed
+            let gap = open(Plane::new(place.x, place.y)) - nearer - closed;
+            let part = |value: f64, bend: f64| if value > 0.0 { value / bend } else { 0.0 };
+            let turn = SMALL_TURN - self.turned(&deviation);
+            let rooms =
+                signs.clone().map(|(sign, side)| part(side * sign.by.dot(whole), sign.bend));
+            rooms
+                .chain([part(gap, open_bend), part(turn, 2.0 * self.diameters * self.angle_bend)])
+                .fold(f64::INFINITY, f64::min)
         };
-        let first = room(&from);
-        let mut signs: Vec<(&Sign, f64, f64)> = Vec::with_capacity(2 * HELD);
-        for (place, sign) in self.pushes.iter().chain(&self.depths).enumerate() {
-            let value = sign.by.dot(&from);
-            let side = if may_pull && place < self.pushes.len() { value.signum() } else { 1.0 };
-            signs.push((sign, side, side * value));
-        }
-        for exponent in (SHORTEST..=LONGEST).rev() {
-            let off = speed * self.limits.get(exponent)?;
-            let begins = |(sign, _, value): &(&Sign, f64, f64)| *value > sign.bend * off;
-            if first <= open_bend * off || !signs.iter().all(begins) {
-                continue;
-            }
-            let to = from + self.changes.get(exponent)? * from;
-            let ends =
-                |(sign, side, _): &(&Sign, f64, f64)| side * sign.by.dot(&to) > sign.bend * off;
-            if signs.iter().all(ends) && room(&to) > open_bend * off {
-                return Some(exponent);
-            }
-        }
-        None
+        let at_start = room(&from);
+        let stride = |exponent: usize| {
+            let (steps, off) = (1_u64 << exponent, speed * self.limits[exponent]);
+            let may = steps <= most && off < at_start;
+            let is_safe = may && off < room(&(from + self.change(exponent) * from));
+            is_safe.then_some(Safe { steps, sag: self.angle_bend * off })
+        };
+        (SHORTEST..=LONGEST).rev().find_map(stride)
     }
 
     /// Takes many steps at once. Returns the state after them, and the sums of the pushes \[N\].
@@ -255,12 +304,19 @@ impl StrideMap {
 
     fn after(&self, state: &State, steps: u64) -> Whole {
         let mut whole = self.whole(state);
-        for (exponent, change) in self.changes.iter().enumerate() {
-            if steps >> exponent & 1 == 1 {
-                whole += change * whole;
-            }
+        for exponent in (0..=LONGEST).filter(|exponent| steps >> exponent & 1 == 1) {
+            whole += self.change(exponent) * whole;
         }
         whole
+    }
+
+    /// Returns `A^(2^exponent) - 1`.
+    fn change(&self, exponent: usize) -> &Change {
+        self.changes[exponent].get_or_init(|| {
+            // (1 + S)^2 = 1 + (2 S + S^2) keeps the digits of a small change S.
+            let half = self.change(exponent - 1);
+            Box::new(half * 2.0 + half * half)
+        })
     }
 
     /// The deviation of a state from the reference, and the constant 1.
@@ -352,6 +408,11 @@ fn energy_units(casing: &Oscillator, modes: &[Oscillator], diameters: f64) -> Sq
         measure(4 + m, 6 + m, mode.pull, diameters.max(1.0));
     }
     units
+}
+
+/// The two modes of a state.
+pub(super) fn modes_of(state: &State) -> [Coordinate; 2] {
+    [4, 5].map(|m| Coordinate { x: state[m], increment: state[m + 2] })
 }
 
 /// An orthonormal basis of the range of a matrix of this rank, as the first columns of a square.

@@ -12,43 +12,36 @@ use std::sync::Arc;
 
 use super::Explicit;
 use super::angles::ANGLE_LOOK;
-use super::oscillator::Coordinate;
+use super::oscillator::{Coordinate, Oscillator};
 use super::row::Row;
-use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap};
+use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap, modes_of};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Plane};
 
 /// Steps with the same tips in contact before a stride is tried: longer than a pause within one
 /// contact.
 const SAME_STEPS: u64 = 4;
-/// Steps in the same corner before the map of a corner with moving blades is computed.
-const SAME_STEPS_OF_CORNER: u64 = 64;
-/// Largest rotation `n_d alpha` of held tips since their map was computed; the map neglects its square
-/// \[rad\].
-const SMALL_TURN: f64 = 3e-6;
-/// Largest rotation of tips at which such a map is computed \[rad\].
+/// Largest rotation of tips at which the map of a corner with moving blades is computed \[rad\].
 const LARGEST_TURN: f64 = 1e-3;
-/// Steps that cost about as much as a map.
+/// Steps that cost about as much as a map: so many lie between two maps of moving blades.
 const STEPS_OF_MAP: u64 = 512;
 /// Number of cached maps.
 const MOST_MAPS: usize = 64;
-
-/// Change of a free coordinate over some steps, `[x, increment]` by `[x, increment]`.
-type Change = [f64; 4];
+/// Part of the largest blade angle by which an angle inside a stride may exceed it unseen. Smaller:
+/// the search costs more where an angle stays at its largest.
+const ANGLE_UNSEEN: f64 = 1e-7;
 
 /// Maps of strides, and when to try the next one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strides {
-    maps: Vec<(Vec<HeldTip>, Arc<StrideMap>)>,
-    /// Map of the corner held by moving blades, and the row whose direction is its real axis.
-    corner: Option<(usize, Arc<StrideMap>)>,
+    maps: Vec<Arc<StrideMap>>,
     /// Sides in contact at the last step, and the number of steps that they have been.
     sides: ActiveSet,
     same: u64,
-    /// Step before which no stride is tried.
+    /// Step before which no stride is tried, and step before which no map of moving blades is
+    /// computed.
     next: u64,
-    /// Changes of the casing, and of the blade modes, over `2^j` free steps.
-    free: Vec<(Change, Vec<Change>)>,
+    next_map: u64,
 }
 
 impl Strides {
@@ -65,8 +58,11 @@ pub(super) struct Stride {
     /// Direction that is the real axis of the state.
     first: Plane,
     state: State,
-    /// Rows that push.
-    held: Vec<Row>,
+    /// Whether the tips of the latest contact are held; else all gaps are open.
+    holds: bool,
+    /// Bound on how far an angle of a pair of modes inside the stride lies from the straight line
+    /// between its values at the ends \[rad\].
+    sag: f64,
 }
 
 impl Explicit {
@@ -77,7 +73,7 @@ impl Explicit {
         if sides == self.strides.sides {
             self.strides.same += 1;
         } else {
-            (self.strides.sides, self.strides.same, self.strides.corner) = (sides, 0, None);
+            (self.strides.sides, self.strides.same) = (sides, 0);
         }
         let ready = self.strides.same >= SAME_STEPS && self.n >= self.strides.next;
         if !ready || !self.drive.is_steady(self.n) {
@@ -88,21 +84,23 @@ impl Explicit {
             ActiveSet::Side(_) | ActiveSet::Corner(..) => self.find_hold(sides),
             ActiveSet::Many => None,
         };
-        let stride = stride.and_then(|stride| self.shortened(stride));
         if stride.is_none() {
-            // Steps leave the map of small deviations: the next try makes another.
-            let is_left = self.strides.corner.take().is_some();
-            self.strides.next = self.n + if is_left { STEPS_OF_MAP } else { 1 << SHORTEST };
+            self.strides.next = self.n + (1 << SHORTEST);
         }
         stride
     }
 
     /// Takes so many steps of a stride, at least one.
     pub(super) fn take_stride(&mut self, stride: &Stride, steps: u64) {
-        if stride.held.is_empty() {
-            self.fly(steps);
-        } else {
+        if stride.sag > 0.0 {
+            let [low, high] =
+                [0, steps].map(|step| self.disk.see_pair(self.pair_after(stride, step)));
+            self.see_between(stride, (0, low), (steps, high));
+        }
+        if stride.holds {
             self.hold(stride, steps);
+        } else {
+            self.fly(steps);
         }
         self.skipped += steps;
         self.disk.watch();
@@ -112,107 +110,84 @@ impl Explicit {
     /// map leaves of the gaps would be a false push in a step from here.
     pub(super) fn see_stride(&mut self, stride: &Stride, steps: u64) {
         self.take_stride(stride, steps);
-        let pushing = self.rows.iter_mut().filter(|row| row.lambda != 0.0);
-        for (row, push) in pushing.zip(stride.map.last_pushes(&stride.state, steps)) {
+        if stride.holds {
+            let pushes = stride.map.last_pushes(&stride.state, steps);
             // A multiplier is the negative push.
-            row.lambda = -push;
+            self.rows.iter_mut().zip(pushes).for_each(|(row, push)| row.lambda = -push);
         }
     }
 
-    /// Shortens a stride so that no maximum of a blade angle lies inside it, and so that held tips
-    /// rotate little.
-    fn shortened(&mut self, mut stride: Stride) -> Option<Stride> {
-        if !self.disk.is_pair() {
-            return (self.disk.reach() <= self.disk.largest()).then_some(stride);
+    /// Finds the largest angle of a pair of modes between two steps of a stride, where it is known: an
+    /// interval in which it may exceed the largest one so far is halved.
+    fn see_between(&mut self, stride: &Stride, low: (u64, f64), high: (u64, f64)) {
+        let length = high.0 - low.0;
+        let part = length as f64 / stride.steps as f64;
+        let most = low.1.max(high.1) + stride.sag * part * part;
+        if length < 2 || most <= self.disk.largest() * (1.0 + ANGLE_UNSEEN) {
+            return;
         }
-        while stride.steps >= 1 << SHORTEST {
-            let after = self.pair_after(&stride)?;
-            let holds = !stride.held.is_empty();
-            let turns = holds && self.turned_since(&stride.map, after) > SMALL_TURN;
-            if !turns && !self.disk.may_pass_largest(after) {
-                return Some(stride);
-            }
-            stride.steps /= 2;
-        }
-        None
+        let step = low.0 + length / 2;
+        let middle = (step, self.disk.see_pair(self.pair_after(stride, step)));
+        self.see_between(stride, low, middle);
+        self.see_between(stride, middle, high);
     }
 
-    /// Returns the modes of a pair after a stride.
-    fn pair_after(&mut self, stride: &Stride) -> Option<[Coordinate; 2]> {
-        if !stride.held.is_empty() {
-            return Some(modes_of(&stride.map.take(&stride.state, stride.steps).0));
+    /// Returns the modes of a pair so many steps after the start of a stride that is not taken yet.
+    fn pair_after(&self, stride: &Stride, steps: u64) -> [Coordinate; 2] {
+        if stride.holds {
+            modes_of(&stride.map.take(&stride.state, steps).0)
+        } else {
+            self.disk.flown_pair(steps)
         }
-        let mut modes = self.disk.coordinates_of_pair();
-        let (_, changes) = self.free(stride.steps.trailing_zeros() as usize)?;
-        modes.iter_mut().zip(changes).for_each(|(at, change)| *at = at.changed(change));
-        Some(modes)
     }
 
     fn find_flight(&mut self) -> Option<Stride> {
         let (reach, farthest) = (self.disk.reach(), self.casing.reach(&self.u));
         // No cause of a failure may lie within the stride.
         let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
-        if fails || self.dips != [0.0; 2] || !self.disk.is_tuned() {
+        // Only the angles of a pair of modes are looked for inside of it.
+        let may_pass = reach > self.disk.largest();
+        let is_unseen = may_pass && !self.disk.is_pair();
+        if fails || is_unseen || self.dips != [0.0; 2] || !self.disk.is_tuned() {
             return None;
         }
         let first = Plane::new(1.0, 0.0);
         let mut state = self.casing_and_pair(first);
         // The modes have changes of their own.
         state.fixed_rows_mut::<4>(4).fill(0.0);
-        let map = self.map_of(&[], state, first)?;
+        let map = self.map_of(false, state, first)?;
         let (tips, law) = (&self.tips_of_rows, &self.tips);
         let margin = law.rise.abs() * reach + tips.out_of_round;
-        let exponent = map.longest(&state, false, law.diameters * reach, |place| {
+        // No extreme of a tip swing may lie inside the stride.
+        let most = if law.rise == 0.0 { u64::MAX } else { self.steps_of_small_turn() };
+        let safe = map.longest(&state, false, law.diameters * reach, most, |place| {
             tips.least_gap(place, law, ActiveSet::Nothing) - margin
         })?;
-        // No extreme of a blade angle or of a tip swing may lie inside the stride.
-        let steps = (1 << exponent).min(self.steps_of_small_turn());
-        Some(Stride { steps, map, first, state, held: Vec::new() })
+        let (steps, length) = (safe.steps, safe.steps as f64);
+        let mode = self.disk.modes_of_pair().first().filter(|_| may_pass);
+        let sag = 0.125 * length * length * mode.map_or(0.0, |mode| mode.bend(reach));
+        Some(Stride { steps, map, first, state, holds: false, sag })
     }
 
     /// Finds a stride with the tips held that push now.
     fn find_hold(&mut self, sides: ActiveSet) -> Option<Stride> {
-        let held: Vec<Row> = self.rows.iter().copied().filter(|row| row.lambda != 0.0).collect();
-        let (moves, turned) =
-            (self.disk.coordinates() > 0, self.tips.diameters * self.disk.reach());
+        let moves = self.disk.coordinates() > 0;
+        let turned = self.tips.diameters * self.disk.reach();
         let linear = !self.scene.goes_beyond()
             && self.machine.polygon.has_corners()
-            && held.len() <= HELD
-            && self.rows.len() == held.len();
-        let rests = !moves
-            || (held.len() == HELD
-                && self.strides.same >= SAME_STEPS_OF_CORNER
-                && self.disk.is_pair()
-                && turned < LARGEST_TURN);
-        if !linear || !rests {
+            && self.rows.len() <= HELD
+            && self.rows.iter().all(|row| row.lambda != 0.0);
+        let is_corner = self.rows.len() == HELD && self.disk.is_pair() && turned < LARGEST_TURN;
+        if !linear || (moves && !is_corner) {
             return None;
         }
-        let axis = held.first()?.index;
-        let first = self.tips_of_rows.rows[axis].normal;
+        let first = self.tips_of_rows.rows[self.rows.first()?.index].normal;
         let state = self.casing_and_pair(first);
-        let near = |(row, map): &(usize, Arc<StrideMap>)| {
-            *row == axis && 2.0 * self.turned_since(map, modes_of(&state)) < SMALL_TURN
-        };
-        let map = match (moves, self.strides.corner.clone().filter(near)) {
-            (true, Some((_, map))) => map,
-            (true, None) => {
-                let map = self.map_of_corner(&held, state, first)?;
-                self.strides.corner = Some((axis, map.clone()));
-                map
-            }
-            (false, _) => self.map_of(&held, state, first)?,
-        };
-        let exponent = map.longest(&state, self.law.pulls(), turned, |place| {
+        let map = self.map_of(true, state, first)?;
+        let safe = map.longest(&state, self.law.pulls(), turned, u64::MAX, |place| {
             self.tips_of_rows.least_gap(place * first, &self.tips, sides)
         })?;
-        let steps = (1 << exponent).min(self.steps_of_small_turn());
-        Some(Stride { steps, map, first, state, held })
-    }
-
-    /// Returns a bound on the rotation of the tips by their blades since a map was computed \[rad\].
-    fn turned_since(&self, map: &StrideMap, modes: [Coordinate; 2]) -> f64 {
-        let [c, s] = modes_of(&map.reference);
-        self.tips.diameters * ((modes[0].x - c.x).abs() + (modes[1].x - s.x).abs())
+        Some(Stride { steps: safe.steps, map, first, state, holds: true, sag: safe.sag })
     }
 
     /// Returns the steps, as a power of two, in which the fastest mode turns by little.
@@ -225,11 +200,8 @@ impl Explicit {
         let counts = self.ledger.counts;
         let stored = counts.then(|| (self.casing_energy(), self.disk.energy()));
         self.n += steps;
-        for exponent in (0..u64::BITS as usize).filter(|exponent| steps >> exponent & 1 == 1) {
-            let Some((casing, modes)) = self.free(exponent).cloned() else { return };
-            self.u = self.u.map(|at| at.changed(&casing));
-            self.disk.fly(&modes);
-        }
+        self.u = self.u.map(|at| self.casing.fly(at, steps));
+        self.disk.fly(steps);
         if let Some((casing, blades)) = stored {
             self.ledger.sums.casing_loss_j += casing - self.casing_energy();
             self.ledger.sums.blade_loss_j += blades - self.disk.energy();
@@ -244,13 +216,13 @@ impl Explicit {
         let (z, w) = (Plane::new(at[0], at[1]) * turn, Plane::new(at[2], at[3]) * turn);
         self.u = [(z.re, w.re), (z.im, w.im)].map(|(x, increment)| Coordinate { x, increment });
         self.disk.set_pair(modes_of(&at));
-        if let [a, b] = stride.held[..]
+        if let [a, b] = self.rows[..]
             && self.disk.coordinates() > 0
         {
             self.close(a.index, b.index);
         }
         let mut pulls = false;
-        for (row, sum) in stride.held.iter().zip(sums) {
+        for (row, sum) in self.rows.iter().zip(sums) {
             self.record.impulse(row.side, -sum);
             self.record.keep_touching(self.n, row.side);
             pulls |= sum < 0.0;
@@ -287,102 +259,45 @@ impl Explicit {
         State::from([z.re, z.im, w.re, w.im, a.x, b.x, a.increment, b.increment])
     }
 
-    /// Returns the changes of casing and modes over `2^exponent` free steps.
-    fn free(&mut self, exponent: usize) -> Option<&(Change, Vec<Change>)> {
-        while self.strides.free.len() <= exponent {
-            let next = match self.strides.free.last() {
-                None => (self.casing.change(), self.disk.changes_of_modes()),
-                Some((casing, modes)) => (twice(casing), modes.iter().map(twice).collect()),
-            };
-            self.strides.free.push(next);
-        }
-        self.strides.free.get(exponent)
-    }
-
-    /// The map with these tips of rigid blades held, or with none, which is known or made. It does
-    /// not depend on the state at which it was made.
-    fn map_of(&mut self, held: &[Row], state: State, first: Plane) -> Option<Arc<StrideMap>> {
-        let tip = |row: &Row| {
+    /// Returns the map with the tips of the latest contact held, or with none, for states near this one:
+    /// a known one, or a new one.
+    fn map_of(&mut self, holds: bool, state: State, first: Plane) -> Option<Arc<StrideMap>> {
+        let held = if holds { &self.rows[..] } else { &[] };
+        let at_rest = |row: &Row| {
             let tip = self.tips_of_rows.rows[row.index];
-            HeldTip {
-                gap: self.tips.clearance - tip.longer,
-                normal: tip.normal * first.conj(),
-                ..HeldTip::default()
-            }
+            let (gap, normal) = (self.tips.clearance - tip.longer, tip.normal * first.conj());
+            HeldTip { gap, normal, arm: 0.0, shape: self.disk.shape_of(row.index) }
         };
-        let key: Vec<HeldTip> = held.iter().map(tip).collect();
-        let alike = |known: &[HeldTip]| {
-            known.len() == key.len() && known.iter().zip(&key).all(|(a, b)| a.is_near(b))
-        };
-        if let Some((_, map)) = self.strides.maps.iter().find(|(known, _)| alike(known)) {
+        let tips: Vec<HeldTip> = held.iter().map(at_rest).collect();
+        if let Some(map) = self.strides.maps.iter().find(|map| map.serves(&tips, &state)) {
             return Some(map.clone());
+        }
+        let modes: &[Oscillator] = if held.is_empty() { &[] } else { self.disk.modes_of_pair() };
+        if !modes.is_empty() {
+            if self.n < self.strides.next_map {
+                return None;
+            }
+            self.strides.next_map = self.n + STEPS_OF_MAP;
         }
         if self.strides.maps.len() >= MOST_MAPS {
             self.strides.maps.clear();
         }
-        let z = self.predicted(state);
-        let mut tips = key.clone();
-        for tip in &mut tips {
-            tip.gap += z.re * tip.normal.re + z.im * tip.normal.im;
-        }
-        let map =
-            Arc::new(StrideMap::new(&self.casing, &[], (self.frame_turn(), 0.0), &tips, state)?);
-        self.strides.maps.push((key, map.clone()));
-        Some(map)
-    }
-
-    /// The map of a corner of blades that move, for small deviations from a state.
-    fn map_of_corner(&self, held: &[Row], state: State, first: Plane) -> Option<Arc<StrideMap>> {
-        let modes = self.disk.modes_of_pair();
-        let z = self.predicted(state) * first;
-        let ahead: Vec<f64> =
-            modes.iter().zip(modes_of(&state)).map(|(mode, at)| mode.step(at, 0.0).x).collect();
-        let tip = |row: &Row| {
-            let shape = self.disk.shape_of(row.index);
-            let angle = shape.iter().zip(&ahead).map(|(shape, x)| shape * x).sum();
-            let at = self.tips_of_rows.row(row.index, z, angle, self.lobe_turn, &self.tips);
-            let normal = at.normal * first.conj();
-            HeldTip { gap: at.gap, normal, arm: at.arm, shape }
+        let ahead = |tip: usize, at: &State| {
+            let (index, shape) = (held[tip].index, tips[tip].shape);
+            let [a, b] = modes_of(at);
+            let (z, angle) = (Plane::new(at[0], at[1]) * first, shape[0] * a.x + shape[1] * b.x);
+            let row = self.tips_of_rows.row(index, z, angle, self.lobe_turn, &self.tips);
+            HeldTip { gap: row.gap, normal: row.normal * first.conj(), arm: row.arm, shape }
         };
-        let tips: Vec<HeldTip> = held.iter().map(tip).collect();
         let frame = (self.frame_turn(), self.tips.diameters);
-        StrideMap::new(&self.casing, modes, frame, &tips, state).map(Arc::new)
+        let map = StrideMap::new(&self.casing, modes, frame, tips.clone(), state, ahead)?;
+        let map = Arc::new(map);
+        self.strides.maps.push(map.clone());
+        Some(map)
     }
 
     /// Rotation of the blade frame in a step \[rad\].
     fn frame_turn(&self) -> f64 {
         self.machine.nu(self.drive.speed(self.n)) * self.drive.step
     }
-
-    /// Place of the casing after a free step, in the frame of the blades after it.
-    fn predicted(&self, state: State) -> Plane {
-        let (z, w) = (Plane::new(state[0], state[1]), Plane::new(state[2], state[3]));
-        (z + w * self.casing.ratio - z * self.casing.pull) * Plane::cis(-self.frame_turn())
-    }
-}
-
-impl HeldTip {
-    /// Returns whether two tips are equal within round-off.
-    fn is_near(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() < 1e-13;
-        let near_plane = |a: Plane, b: Plane| near(a.re, b.re) && near(a.im, b.im);
-        (self.gap - other.gap).abs() <= 1e-14 * self.gap.abs()
-            && near_plane(self.normal, other.normal)
-    }
-}
-
-/// The two modes of a state.
-fn modes_of(state: &State) -> [Coordinate; 2] {
-    [4, 5].map(|m| Coordinate { x: state[m], increment: state[m + 2] })
-}
-
-/// The change over twice as many steps, `(1 + S)^2 - 1`.
-fn twice(change: &Change) -> Change {
-    let [a, b, c, d] = *change;
-    [
-        2.0 * a + a * a + b * c,
-        2.0 * b + a * b + b * d,
-        2.0 * c + c * a + d * c,
-        2.0 * d + c * b + d * d,
-    ]
 }
