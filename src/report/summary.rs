@@ -116,11 +116,8 @@ fn how(report: &RunReport) -> String {
             short(some.amplitude_nm)
         ),
     };
-    let follow = if report.solver.blades_follow {
-        " (very stiff blades, solved as rigid; their angles follow the pushes)"
-    } else {
-        ""
-    };
+    let follow =
+        if report.solver.blades_follow { " (very stiff blades, solved as rigid)" } else { "" };
     format!(
         "{} solver, {} contact, {} model{follow}{step}; {} at {}; pulse of {} N for {}{excitation}; simulated to {}.",
         capital(report.solver.kind.as_ref()),

@@ -7,16 +7,12 @@
 //! casing at `Omega = Omega_c` in the blade frame) and `stiffness < 0` are the same formula,
 //! evaluated in different ways only to limit round-off.
 //!
-//! The module also derives from it the gap of a side during free flight after the pulse, and the
-//! energy lost by a damped oscillator.
+//! The module also derives from it the gap of a side during free flight after the pulse.
 
-use super::Plane;
 use crate::model::{Machine, Operation};
-use crate::numeric::quadrature::quadrature;
 
-/// Part of the rates below which the two roots of an oscillator are nearly one: a sum of two
-/// exponentials then loses digits.
-const DOUBLE_ROOT: f64 = 0.3;
+/// Frequency of a damped oscillator, as a part of its damping, up to which it hardly swings.
+const HARDLY_SWINGS: f64 = 0.3;
 
 /// Radians of an oscillator below which its response is a power series: its closed form cancels
 /// there.
@@ -24,9 +20,6 @@ const SHORT_TIME: f64 = 0.5;
 
 /// Terms of a power series of order one that are below its round-off.
 const SERIES_END: f64 = 1e-19;
-
-/// Square of an exponent below which its integral is a power series of three terms.
-const SMALL_EXPONENT: f64 = 1e-8;
 
 /// Largest number of terms of the power series; for `rate * s = 1/2` the last one is below 1e-20.
 const TERMS: usize = 18;
@@ -132,23 +125,10 @@ impl Propagator {
 }
 
 impl Propagator {
-    /// Returns the exponents `-c +- sqrt(c^2 - stiffness)` as `(re, im)`; `None` near a double
-    /// root, where a sum of two exponentials is ill-conditioned.
-    pub(super) fn exponents(&self) -> Option<[(f64, f64); 2]> {
-        let (c, q) = (self.damping, self.root);
-        if q < DOUBLE_ROOT * c.max(self.stiffness.abs().sqrt()) {
-            None
-        } else if self.discriminant < 0.0 {
-            Some([(-c, q), (-c, -q)])
-        } else {
-            Some([(-self.stiffness / (c + q), 0.0), (-c - q, 0.0)])
-        }
-    }
-
     /// Returns the damped angular frequency; `None` if the motion does not oscillate, or hardly
     /// does \[rad/s\].
     pub(super) fn swing(&self) -> Option<f64> {
-        let swings = self.discriminant < 0.0 && self.root > DOUBLE_ROOT * self.damping;
+        let swings = self.discriminant < 0.0 && self.root > HARDLY_SWINGS * self.damping;
         swings.then_some(self.root)
     }
 }
@@ -231,47 +211,6 @@ impl FreeFlight<'_> {
     }
 }
 
-/// Returns the energy per unit mass that a free damped oscillator loses in `s` seconds \[m^2/s^2\].
-pub(super) fn damped(propagator: &Propagator, from: Plane, rate: Plane, s: f64) -> f64 {
-    if propagator.damping == 0.0 || (from.norm_sqr() == 0.0 && rate.norm_sqr() == 0.0) {
-        return 0.0;
-    }
-    let power = 2.0 * propagator.damping;
-    let Some(exponents) = propagator.exponents() else {
-        // Near critical damping the motion has decayed after about forty periods.
-        let omega = propagator.stiffness.sqrt();
-        let [sum, _] = quadrature(s.min(200.0 / omega), 2.0 * omega, |t| {
-            let response = propagator.at(t);
-            let rate = rate * response.slope - from * (propagator.stiffness * response.unit);
-            [rate.norm_sqr(), 0.0]
-        });
-        return power * sum;
-    };
-    let [p, q] = exponents.map(|(re, im)| Plane::new(re, im));
-    let speeds = [(p, q), (q, p)]
-        .map(|(exponent, other)| (exponent, exponent * (rate - from * other) / (exponent - other)));
-    let mut sum = 0.0;
-    for (first, a) in speeds {
-        for (second, b) in speeds {
-            let exponent = first + second.conj();
-            sum += (a * b.conj() * integral(exponent, s)).re;
-        }
-    }
-    power * sum
-}
-
-/// Returns the integral of `exp(r t)` from 0 to `s`.
-fn integral(r: Plane, s: f64) -> Plane {
-    let x = r * s;
-    if x.norm_sqr() < SMALL_EXPONENT {
-        return (Plane::new(1.0, 0.0) + x * 0.5 + x * x / 6.0) * s;
-    }
-    // exp(x) - 1 without cancellation for small x.
-    let half = (0.5 * x.im).sin();
-    let re = x.re.exp_m1() * x.im.cos() - 2.0 * half * half;
-    Plane::new(re, x.re.exp() * x.im.sin()) / r
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -344,23 +283,5 @@ mod tests {
         let response: Response = propagator.at(1e-12);
         assert!((response.ramp / 5e-25 - 1.0).abs() < 1e-9);
         assert!((response.unit / 1e-12 - 1.0).abs() < 1e-9);
-    }
-}
-
-#[cfg(test)]
-mod dissipation_tests {
-    use super::*;
-
-    #[test]
-    fn integral_of_an_exponential_is_smooth_through_zero() {
-        for scale in [1.0, 1e-2, 1e-4, 1.001e-4, 1e-9] {
-            let r = Plane::new(-0.3, 1.1) * scale;
-            let expected = quadrature(1.0, 2.0, |t| {
-                let value = (r * t).exp();
-                [value.re, value.im]
-            });
-            let value = integral(r, 1.0);
-            assert!((value.re - expected[0]).abs() + (value.im - expected[1]).abs() < 1e-14);
-        }
     }
 }

@@ -30,8 +30,7 @@ pub struct SolverReport {
     pub contact: ContactLaw,
     /// Model size.
     pub model: ModelSize,
-    /// Whether the blades are so stiff that they were solved as rigid ones whose angles follow the
-    /// contact forces statically. Reported only if true.
+    /// Whether the blades are so stiff that they were solved as rigid ones. Reported only if true.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub blades_follow: bool,
     /// Whether the blade angles are neglected in the phases of the gaps. Reported only if true.

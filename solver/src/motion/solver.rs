@@ -157,8 +157,7 @@ pub trait Solver: Debug + Send + Sync {
         None
     }
 
-    /// Returns whether the blades are so stiff that they are solved as rigid ones whose angles
-    /// follow the contact forces statically.
+    /// Returns whether the blades are so stiff that they are solved as rigid ones.
     fn blades_follow(&self) -> bool {
         false
     }

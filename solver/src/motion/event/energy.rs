@@ -14,7 +14,6 @@ use super::flow::{Face, Flow, dot, size};
 use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
-use crate::motion::propagator::damped;
 use crate::motion::verdict::Trend;
 use crate::motion::{Failure, FailureReason, Plane};
 use crate::numeric::quadrature::GAUSS_8;
@@ -53,11 +52,10 @@ impl Energies {
     /// Adds the first `s` seconds of a stretch.
     pub(super) fn book(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64) {
         if stretch.free {
-            let from = stretch.from();
-            self.casing += damped(&flow.casing, from.z, flow.carried(from, 0.0), s);
-            if let Some(blades) = flow.blades {
-                self.blades += blades.mass * damped(&blades.propagator, from.a, from.da, s);
-            }
+            let [casing, blades] = flow.energies(stretch.from(), 0.0);
+            let [casing_left, blades_left] = flow.energies(&stretch.point(flow, s), s);
+            self.casing += casing - casing_left;
+            self.blades += blades - blades_left;
             return;
         }
         if stretch.length == f64::INFINITY {
@@ -225,14 +223,6 @@ impl Events {
     /// Returns the largest blade angle up to `s` seconds into the stretch \[rad\].
     pub(super) fn widest_until(&self, s: f64) -> f64 {
         let (flow, stretch) = (&self.flow, &self.stretch);
-        if let Some(blades) = &flow.following {
-            let part = |part: u32| {
-                let s = s * f64::from(part) / 4.0;
-                let pushes = self.held.with(stretch.pushes_at(s));
-                flow.largest_angle(flow.followed(blades, &stretch.point(flow, s), pushes))
-            };
-            return (0..=4).map(part).fold(self.run.widest, f64::max);
-        }
         let Some(blades) = &flow.blades else { return 0.0 };
         let from = stretch.from();
         if stretch.free

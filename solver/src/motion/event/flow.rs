@@ -26,13 +26,13 @@ use crate::scene::{ModelSize, Scene};
 /// that much early. Smaller: a touch may be searched again and again.
 pub(crate) const EVENT: f64 = 1e-15;
 
-/// Stiff blades follow the contact forces at once if they are this much faster than all other rates.
-/// Smaller: their vibration is missed.
-const FOLLOWING_RATES: f64 = 100.0;
+/// Stiff blades are solved as rigid ones if they are this much faster than all other rates. Smaller:
+/// their vibration is missed.
+const RIGID_RATES: f64 = 100.0;
 
 /// Part of the clearance by which such blades may move a gap. Larger: gaps are wrong in as many
 /// digits.
-const FOLLOWING_GAP: f64 = 1e-9;
+const RIGID_GAP: f64 = 1e-9;
 
 /// Assumed bound on the casing speed besides that of pulse and start: clearances per radian of the
 /// casing's rates.
@@ -90,9 +90,8 @@ pub(super) struct Flow {
     pub casing: Propagator,
     /// Constants of the blade modes; `None` for blades that do not move.
     pub blades: Option<Blades>,
-    /// Blades that are too stiff for the casing to notice and are solved as rigid ones; their angles
-    /// follow the contact forces statically.
-    pub following: Option<Blades>,
+    /// Whether the blades are too stiff for the casing to notice and are solved as rigid ones.
+    pub solved_as_rigid: bool,
     /// Direction `exp(i psi)` of each row.
     pub rows: Vec<Plane>,
     /// Excess length of the longest tip on each row \[m\].
@@ -127,7 +126,7 @@ impl Flow {
             moment: 0.0,
             diameters: if radial { machine.nodal_diameters } else { 0.0 },
         });
-        let follow = radial && blades.is_some_and(|blades| blades.follow(scene, &machine));
+        let solved_as_rigid = radial && blades.is_some_and(|own| own.are_rigid(scene, &machine));
         let longer: Vec<f64> =
             (0..machine.polygon.sides).map(|side| machine.longest_of_side(side)).collect();
         let mut flow = Self {
@@ -135,8 +134,8 @@ impl Flow {
             longest: longer.iter().copied().reduce(f64::max).unwrap_or(0.0),
             longer,
             casing: Propagator::new(machine.casing_damping_ratio * omega, omega * omega),
-            blades: blades.filter(|_| !follow),
-            following: blades.filter(|_| follow),
+            blades: blades.filter(|_| !solved_as_rigid),
+            solved_as_rigid,
             speed: 0.0,
             nu: 0.0,
             nu_rate: 0.0,
@@ -154,7 +153,7 @@ impl Flow {
     /// Updates the blade response to the stiffness of the machine.
     pub(super) fn stiffen(&mut self) {
         let machine = &self.machine;
-        for blades in self.blades.iter_mut().chain(&mut self.following) {
+        if let Some(blades) = &mut self.blades {
             let omega = machine.omega_bd;
             blades.propagator = Propagator::new(machine.blade_damping_ratio * omega, omega * omega);
         }
@@ -351,38 +350,21 @@ impl Flow {
         point.dz + Plane::i() * point.z * self.nu_at(s)
     }
 
-    /// Returns the energy per unit casing mass `s` seconds after the start of the stretch
-    /// \[m^2/s^2\].
-    pub(super) fn energy(&self, point: &Point, s: f64) -> f64 {
+    /// Returns the energies of casing and blades per unit casing mass `s` seconds after the start of
+    /// the stretch \[m^2/s^2\].
+    pub(super) fn energies(&self, point: &Point, s: f64) -> [f64; 2] {
         let casing = self.carried(point, s).norm_sqr() + self.casing.stiffness * point.z.norm_sqr();
         let blades = self.blades.map_or(0.0, |blades| {
             let stiffness = blades.propagator.stiffness;
             blades.mass * (point.da.norm_sqr() + stiffness * point.a.norm_sqr())
         });
-        0.5 * (casing + blades)
+        [0.5 * casing, 0.5 * blades]
     }
 
-    /// Returns the static angle of blades that follow contact forces on these rows \[rad\].
-    pub(super) fn followed(
-        &self,
-        blades: &Blades,
-        point: &Point,
-        pushes: impl Iterator<Item = (usize, f64)>,
-    ) -> Plane {
-        let moment = blades.diameters / (blades.mass * blades.propagator.stiffness);
-        let angle = |(row, push): (usize, f64)| {
-            self.rows
-                .get(row)
-                .map_or_else(Plane::default, |base| base * (moment * push * across(*base, point.z)))
-        };
-        pushes.map(angle).sum()
-    }
-
-    /// Returns a bound on the angle to which such blades vibrate after an impulse on a row \[rad\].
-    pub(super) fn kicked(&self, row: usize, point: &Point, impulse: f64) -> f64 {
-        let (Some(blades), Some(base)) = (&self.following, self.rows.get(row)) else { return 0.0 };
-        let rate = blades.diameters * across(*base, point.z) * impulse / blades.mass;
-        rate.abs() / blades.propagator.stiffness.sqrt()
+    /// Returns their sum \[m^2/s^2\].
+    pub(super) fn energy(&self, point: &Point, s: f64) -> f64 {
+        let [casing, blades] = self.energies(point, s);
+        casing + blades
     }
 
     /// Returns the largest angle of any blade \[rad\].
@@ -392,9 +374,9 @@ impl Flow {
 }
 
 impl Blades {
-    /// Returns whether these blades act on the casing as rigid ones, and are so much faster than the
-    /// motion that their angles follow the contact forces statically.
-    fn follow(&self, scene: &Scene, machine: &Machine) -> bool {
+    /// Returns whether these blades act on the casing as rigid ones: they are so much faster than the
+    /// motion that their angles follow the contact forces statically, and these are small.
+    fn are_rigid(&self, scene: &Scene, machine: &Machine) -> bool {
         let operation = &scene.operation;
         let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
         let nu = machine.nu(operation.speed_rad_s.abs().max(last.abs()));
@@ -407,8 +389,7 @@ impl Blades {
         let push = pulse + rates * rates * clearance + 2.0 * nu * speed;
         let moment_arm = self.diameters / self.mass * half_side;
         let angle = moment_arm * (push / omega + speed) / omega;
-        omega > FOLLOWING_RATES * rates
-            && self.diameters * angle * half_side < FOLLOWING_GAP * clearance
+        omega > RIGID_RATES * rates && self.diameters * angle * half_side < RIGID_GAP * clearance
     }
 }
 

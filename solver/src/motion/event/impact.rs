@@ -143,7 +143,6 @@ impl Events {
                 still.push(row);
             }
             self.energies.impacts -= 0.5 * push * (rate + after);
-            self.run.widest = self.run.widest.max(flow.kicked(row, point, push));
             if push > 0.0 {
                 touched = touched.with(row as u32);
                 if rate < -soft {

@@ -225,18 +225,11 @@ impl Solver for Events {
         let (s, point) = (self.elapsed(self.run.clock.now), self.point_now());
         let turn = Plane::cis(self.phase + self.flow.turned(s));
         let (u, v) = (point.z * turn, self.flow.carried(&point, s) * turn);
-        let angle = match &self.flow.following {
-            None => point.a,
-            Some(blades) => {
-                let pushes = self.held.with(self.stretch.pushes_at(s));
-                self.flow.followed(blades, &point, pushes)
-            }
-        };
         State {
             t_s: self.run.clock.now,
             u: [u.re, u.im],
             v: [v.re, v.im],
-            alpha: [angle.re, angle.im],
+            alpha: [point.a.re, point.a.im],
             alpha_rate: [point.da.re, point.da.im],
         }
     }
@@ -308,7 +301,7 @@ impl Solver for Events {
     }
 
     fn blades_follow(&self) -> bool {
-        self.flow.following.is_some()
+        self.flow.solved_as_rigid
     }
 
     fn linearised(&self) -> bool {
