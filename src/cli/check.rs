@@ -20,7 +20,7 @@ impl CheckCommand {
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
         status::say_noted();
-        report::sheet(&scene, CommandLine::new("check", &scene)).write_text(true, out)?;
+        report::sheet(&scene, CommandLine::new("check", &scene)).write_text(out)?;
         Ok(Status::Done)
     }
 }

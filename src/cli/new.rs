@@ -108,7 +108,7 @@ impl NewCommand {
         writeln!(out)?;
         let survey = Survey::of(&scene, Some(data.range_rad_s), None)?;
         let command = CommandLine::new("survey", &scene);
-        report::sheet(&survey, false, command).write_text(true, out)?;
+        report::sheet(&survey, false, command).write_text(out)?;
         Ok(Status::Done)
     }
 

@@ -78,7 +78,7 @@ impl OutputOptions {
             self.save(&rows, out, |out| sheet.write_file(ending, out))?;
         }
         if !self.json {
-            sheet.write_text(true, out)?;
+            sheet.write_text(out)?;
         }
         Ok(())
     }

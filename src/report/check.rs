@@ -130,16 +130,12 @@ fn unknown(scene: &CheckedScene) -> Option<String> {
     }
     let all = scene.bladed_disk.blades / 2 + 1;
     let is_known = |n: &u32| scene.casing.modes.iter().any(|mode| mode.nodal_diameters == *n);
-    match (0..all).filter(is_known).count() as u32 {
-        0 => Some(format!(
-            "One mode of the casing is given; for other nodal diameters than {} nothing is \
-             known, and the same mode is used.",
-            scene.operation.nodal_diameters
-        )),
-        some if some < all => Some(format!(
-            "Modes of the casing are known for {some} of {all} nodal diameters; for the \
-             others its common values are used."
-        )),
-        _ => None,
-    }
+    // Without a list, the mode of the scene is that of its own nodal diameters.
+    let known = (0..all).filter(is_known).count().max(1) as u32;
+    (known < all).then(|| {
+        format!(
+            "Modes of the casing are known for {known} of {all} nodal diameters; for the others its \
+             common values are used."
+        )
+    })
 }

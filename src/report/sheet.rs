@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::command::{PROGRAM, VERSION};
 use super::line::wrapped;
-use super::number::{per_speed, rounded, speed_unit, time};
+use super::number::{per_speed, speed_unit};
 use super::svg;
 use super::table::{Table, WIDTH};
 use super::{CommandLine, Provenance};
@@ -28,8 +28,6 @@ pub struct Sheet<'a> {
 enum Part<'a> {
     /// A line of text.
     Line(String),
-    /// A line about the wall time, which pages leave out: the same scene gives the same page.
-    Time(String),
     /// A field of the JSON report.
     Fact(String, Value),
     /// A list in the JSON report: its name, its length, and the function that makes an entry.
@@ -71,11 +69,6 @@ impl<'a> Sheet<'a> {
     /// Adds a paragraph of text, which is wrapped to the width of a page.
     pub fn paragraph(&mut self, text: &str) {
         self.parts.extend(wrapped(text, WIDTH).into_iter().map(Part::Line));
-    }
-
-    /// Adds a line about the wall time \[s\].
-    pub fn time(&mut self, wall_s: f64) {
-        self.parts.push(Part::Time(format!("Computed in {}.", time(rounded(wall_s, 2)))));
     }
 
     /// Adds a field of the JSON report.
@@ -154,15 +147,11 @@ impl<'a> Sheet<'a> {
     ///
     /// # Errors
     /// The writer failed.
-    pub fn write_text(&self, with_time: bool, out: &mut dyn Write) -> Result<()> {
+    pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
         let mut after_table = false;
         for part in &self.parts {
             match part {
-                Part::Line(line) | Part::Time(line) => {
-                    let is_time = matches!(part, Part::Time(_));
-                    if is_time && !with_time {
-                        continue;
-                    }
+                Part::Line(line) => {
                     if std::mem::take(&mut after_table) {
                         writeln!(out)?;
                     }
@@ -203,7 +192,7 @@ impl<'a> Sheet<'a> {
             }
             Picture::Charts(_) => {
                 let mut text = Vec::new();
-                self.write_text(false, &mut text)?;
+                self.write_text(&mut text)?;
                 writeln!(text, "\n{PROGRAM} {VERSION}: {}", origin.command)?;
                 svg::write_text(&String::from_utf8_lossy(&text), &origin, out)
             }
@@ -273,7 +262,7 @@ impl Serialize for Json<'_> {
                 Part::Table { name: Some(name), table, .. } => {
                     object.serialize_entry(name, table)?;
                 }
-                Part::Line(_) | Part::Time(_) | Part::Table { name: None, .. } => {}
+                Part::Line(_) | Part::Table { name: None, .. } => {}
             }
         }
         object.end()

@@ -5,13 +5,13 @@ use serde_json::{Value, json};
 
 use super::line::{blades, capital};
 use super::number::Digits;
-use super::number::{count, grouped, rounded, short, speed, time};
+use super::number::{count, grouped, rounded, short, speed, time, with_unit};
 use super::sentence::Facts;
 use super::{CommandLine, History, Sheet, Wall};
 use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Basis, Contact, Proof, RunReport};
-use rubscope_solver::scene::{ContactLaw, SolverKind};
+use rubscope_solver::scene::{ContactLaw, Scene, SolverKind};
 
 /// The inputs that are changed to test whether a run is sensitive, as the end of a phrase.
 pub(super) const OF_WHAT: &str = "of the pulse, the speed or the motion";
@@ -71,10 +71,22 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     if !scene.title.is_empty() {
         lines.push(scene.title.clone());
     }
-    lines.push(how(report));
+    let mut conditions = conditions(scene);
+    if report.solver.kind == SolverKind::Explicit {
+        conditions += &format!(", step {}", time(scene.solver.step_s));
+    }
+    if scene.excitation.amplitude_nm > 0.0 {
+        let torque = short(scene.excitation.amplitude_nm);
+        let order = scene.excitation.order;
+        conditions += &format!("; engine order {order} with {torque} N m on each blade");
+    }
+    lines.push(format!("{conditions}; simulated to {}.", time(scene.solver.end_s)));
     let notes = scene.modes_note().into_iter().chain(scene.start_note());
     let notes = notes.chain(scene.share_note().map(String::from));
     lines.extend(notes.map(|note| format!("{}.", capital(&note))));
+    if report.solver.blades_follow {
+        lines.push("Very stiff blades are solved as rigid; their angles follow the pushes.".into());
+    }
     if report.solver.linearised {
         lines.push("Blade angles in the phase of the gap are neglected (linearised).".into());
     }
@@ -101,6 +113,7 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     lines
 }
 
+<<<<<<< HEAD
 /// Describes the solver, the contact law, the model and the conditions of the run.
 fn how(report: &RunReport) -> String {
     let scene = &report.scene;
@@ -118,16 +131,20 @@ fn how(report: &RunReport) -> String {
     };
     let follow =
         if report.solver.blades_follow { " (very stiff blades, solved as rigid)" } else { "" };
+=======
+/// Describes the speed, the pulse, the contact law, the solver and the model of a scene.
+pub(super) fn conditions(scene: &Scene) -> String {
+    let (operation, solver) = (&scene.operation, &scene.solver);
+>>>>>>> 4da28907 (report: a scene is described once, and no answer ends with its time)
     format!(
-        "{} solver, {} contact, {} model{follow}{step}; {} at {}; pulse of {} N for {}{excitation}; simulated to {}.",
-        capital(report.solver.kind.as_ref()),
-        report.solver.contact,
-        report.solver.model,
-        count(u64::from(scene.operation.nodal_diameters), "nodal diameter"),
-        speed(scene.operation.speed_rad_s),
-        short(scene.operation.pulse_n),
-        time(scene.operation.pulse_s),
-        time(scene.solver.end_s),
+        "{}, pulse of {} for {}, {}; {} law, {} solver, {} model",
+        speed(operation.speed_rad_s),
+        with_unit(operation.pulse_n, 6, "N"),
+        time(operation.pulse_s),
+        count(u64::from(operation.nodal_diameters), "nodal diameter"),
+        solver.contact,
+        solver.kind,
+        solver.model,
     )
 }
 
@@ -276,20 +293,14 @@ fn checks(report: &RunReport, machine: &Machine) -> Vec<String> {
 }
 
 fn cost(report: &RunReport, wall: Wall) -> String {
-    let mut parts = Vec::new();
-    if let Some((taken, skipped)) = report.solver.steps.zip(report.solver.steps_skipped) {
-        parts.push(format!("{} taken and {} skipped", count(taken, "step"), grouped(skipped)));
-    }
-    if let Some(events) = report.solver.events {
-        parts.push(count(events, "event"));
-    }
-    let each = match report.solver.steps {
-        Some(steps) if steps > 0 => format!(" ({} a step taken)", time(wall.run_s / steps as f64)),
-        _ => String::new(),
+    let work = match report.solver.steps.zip(report.solver.steps_skipped) {
+        Some((taken, skipped)) => {
+            format!("{} taken, {} skipped", count(taken, "step"), grouped(skipped))
+        }
+        None => count(report.solver.events.unwrap_or(0), "event"),
     };
-    let what = if parts.is_empty() { String::new() } else { format!("{}; ", parts.join(", ")) };
     let certainty = wall.certainty_s.map_or(String::new(), |s| format!(", certainty {}", time(s)));
-    format!("Cost: {what}run {}{each}{certainty}.", time(wall.run_s))
+    format!("Cost: {work}; run {}{certainty}.", time(wall.run_s))
 }
 
 #[cfg(test)]

@@ -88,7 +88,6 @@ pub fn sheet(survey: &Survey, all: bool, command: CommandLine) -> Sheet<'_> {
     sheet.table(None, "", rows);
     sheet.filed(None, table(survey));
     sheet.picture(move || figure(survey, all));
-    sheet.time(survey.wall_s);
     sheet
 }
 

@@ -232,11 +232,6 @@ impl<'a> Table<'a> {
         self.notes.push(note.into());
     }
 
-    /// Returns the notes.
-    pub fn notes(&self) -> &[String] {
-        &self.notes
-    }
-
     /// Returns the number of rows.
     pub fn len(&self) -> usize {
         self.count

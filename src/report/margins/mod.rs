@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::line::wrapped;
 use super::number::with_unit;
+use super::summary::conditions;
 use super::symbols::symbol;
 use super::table::{Heading, Table, TableCell, WIDTH};
 use super::{CommandLine, Sheet};
@@ -75,7 +76,7 @@ pub fn sheet(margins: &Margins, command: CommandLine) -> Sheet<'_> {
     let mut sheet = Sheet::new("margins", 1, command, &margins.scene);
     sheet.facts(margins);
     sheet.paragraph(&margins.scene.title);
-    sheet.paragraph(&words::conditions(margins));
+    sheet.paragraph(&(conditions(&margins.scene) + "."));
     sheet.paragraph(&words::note(margins));
     for found in robust::asked(margins) {
         let sentence = wrapped(&robust::sentence(found, margins, true), WIDTH).join("\n");
@@ -89,6 +90,5 @@ pub fn sheet(margins: &Margins, command: CommandLine) -> Sheet<'_> {
             sheet.line(format!("Check it: {command}"));
         }
     }
-    sheet.time(margins.cost.wall_s);
     sheet
 }

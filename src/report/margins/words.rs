@@ -2,7 +2,7 @@
 
 use crate::report::CommandLine;
 use crate::report::line::capital;
-use crate::report::number::{count, rounded, short, speed, time, with_unit};
+use crate::report::number::{rounded, short, with_unit};
 use crate::report::table::TableCell;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
@@ -44,21 +44,6 @@ pub fn change(by: f64) -> String {
     let digits = if by.abs() < 1.0 { 2 } else { 4 };
     let sign = if by < 0.0 { "" } else { "+" };
     format!("{sign}{} %", short(rounded(by, digits)))
-}
-
-/// Describes the speed, pulse, law and solver of the scene.
-pub fn conditions(margins: &Margins) -> String {
-    let (operation, solver) = (&margins.scene.operation, &margins.scene.solver);
-    format!(
-        "{}, pulse of {} for {}, {}; {} law, {} solver, {} model.",
-        speed(operation.speed_rad_s),
-        with_unit(operation.pulse_n, 6, "N"),
-        time(operation.pulse_s),
-        count(u64::from(operation.nodal_diameters), "nodal diameter"),
-        solver.contact,
-        solver.kind,
-        solver.model,
-    )
 }
 
 /// Returns the notes on the modes of the scene and on what its closed-form limits ignore; empty if

@@ -8,7 +8,8 @@ use std::io::{Result, Write};
 use super::Provenance;
 use super::line::{harmless, wrapped};
 use super::table;
-use paper::{TEXT, letters_in, text};
+pub use paper::escaped;
+use paper::{LEFT, LINE, TEXT, letters_in, text};
 use rubscope_solver::study::figures::Figure;
 
 /// Width of a figure with one panel per row, and what each further panel in a row adds \[px\].
@@ -18,10 +19,6 @@ const WIDTH_MORE: f64 = 240.0;
 const PANEL: f64 = 400.0;
 /// Height of the title \[px\].
 const HEAD: f64 = 40.0;
-/// Distance between lines of text, also in legends \[px\].
-const LINE: f64 = 19.0;
-/// Left margin of titles, conditions and caption \[px\].
-const LEFT: f64 = 20.0;
 /// Width and height of a character on a page of text \[px\].
 const LETTER: [f64; 2] = [9.0, 19.0];
 
@@ -101,11 +98,6 @@ pub fn describe(origin: &Provenance) -> String {
     let plain = |c: char| if c == '\n' { c } else { harmless(c) };
     let text: String = origin.text().chars().map(plain).collect();
     format!("<desc>{}</desc>\n", escaped(&text))
-}
-
-/// Escapes a text for XML.
-pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! One panel of a figure: axes, ranges, ticks (powers of ten on a logarithmic axis), legend and
 //! series.
 
-use super::paper::{Place, circle, colour, line, rectangle, strokes, text, width_of};
-use super::{LEFT, LINE};
+use super::paper::{LEFT, LINE, Place, circle, colour, line, rectangle, strokes, text, width_of};
 use crate::report::number::short;
 use crate::report::ticks::{log_ticks, power_of_ten, scientific, ticks};
 use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};

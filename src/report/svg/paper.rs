@@ -4,11 +4,13 @@ use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::is_plain;
 use rubscope_solver::study::figures::Style;
 
-use super::escaped;
-
 /// A place from the upper left corner of a panel or figure \[px\].
 pub type Place = [f64; 2];
 
+/// Distance between lines of text, also in legends \[px\].
+pub const LINE: f64 = 19.0;
+/// Left margin of titles, conditions and caption \[px\].
+pub const LEFT: f64 = 20.0;
 /// Font size of all text except titles \[px\].
 pub const TEXT: f64 = 12.0;
 /// Average width of a character relative to the font size: an upper estimate, for wide fonts.
@@ -18,6 +20,11 @@ const LETTER: f64 = 0.59;
 /// differs too, for print in grey. Red, green and blue.
 const COLOURS: [[u8; 3]; 6] =
     [[0, 96, 165], [225, 110, 10], [0, 150, 110], [205, 130, 175], [240, 175, 20], [50, 50, 50]];
+
+/// Escapes a text for XML.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
 
 /// Returns how many characters of text fit into `width` \[px\].
 pub fn letters_in(width: f64) -> usize {

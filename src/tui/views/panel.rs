@@ -39,7 +39,7 @@ pub trait ViewPanel: Sync {
     /// Returns the text for `--lines`: that of the sheet.
     fn text(&self, app: &App) -> String {
         let mut bytes = Vec::new();
-        let written = self.sheet(app).map(|sheet| sheet.write_text(false, &mut bytes));
+        let written = self.sheet(app).map(|sheet| sheet.write_text(&mut bytes));
         written.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
     }
 
