@@ -85,7 +85,7 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     let notes = notes.chain(scene.share_note().map(String::from));
     lines.extend(notes.map(|note| format!("{}.", capital(&note))));
     if report.solver.blades_follow {
-        lines.push("Very stiff blades are solved as rigid; their angles follow the pushes.".into());
+        lines.push("Very stiff blades are solved as rigid.".into());
     }
     if report.solver.linearised {
         lines.push("Blade angles in the phase of the gap are neglected (linearised).".into());
@@ -113,29 +113,9 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     lines
 }
 
-<<<<<<< HEAD
-/// Describes the solver, the contact law, the model and the conditions of the run.
-fn how(report: &RunReport) -> String {
-    let scene = &report.scene;
-    let step = match report.solver.kind {
-        SolverKind::Explicit => format!(", step {}", time(scene.solver.step_s)),
-        SolverKind::Event => String::new(),
-    };
-    let excitation = match &scene.excitation {
-        none if none.amplitude_nm == 0.0 => String::new(),
-        some => format!(
-            "; engine order {} with {} N m on each blade",
-            some.order,
-            short(some.amplitude_nm)
-        ),
-    };
-    let follow =
-        if report.solver.blades_follow { " (very stiff blades, solved as rigid)" } else { "" };
-=======
 /// Describes the speed, the pulse, the contact law, the solver and the model of a scene.
 pub(super) fn conditions(scene: &Scene) -> String {
     let (operation, solver) = (&scene.operation, &scene.solver);
->>>>>>> 4da28907 (report: a scene is described once, and no answer ends with its time)
     format!(
         "{}, pulse of {} for {}, {}; {} law, {} solver, {} model",
         speed(operation.speed_rad_s),
