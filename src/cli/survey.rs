@@ -39,10 +39,9 @@ impl SurveyCommand {
         self.output.ending()?;
         let scene = self.options.scene()?;
         self.options.note_assumed(&scene);
-        let own = Some((keys::VIEW_SPEEDS, scene.view.speeds.clone()));
-        let own = own.filter(|(_, speeds)| !speeds.is_empty());
-        let range = self.range().map(|text| ("--range", text)).or(own);
-        let range = range.map(|(name, text)| speed_range(name, &text)).transpose()?;
+        // They are empty, or checked.
+        let own = speed_range(keys::VIEW_SPEEDS, &scene.view.speeds).ok();
+        let range = self.range().map(|text| speed_range("--range", &text)).transpose()?.or(own);
         if let (Some(text), Some(range)) = (&self.range, range)
             && !self.options.in_rpm()
         {

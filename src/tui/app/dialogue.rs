@@ -47,8 +47,9 @@ impl App {
     /// where the keys of all its groups are valid.
     pub fn keyboard(&self) -> Group {
         match &self.dialogue.mode {
-            InputMode::Main if self.reading.on => Group::Reading,
+            // The letters on the screen answer, also while a chart is read.
             InputMode::Main if self.is_asked() => Group::Question,
+            InputMode::Main if self.reading.on => Group::Reading,
             InputMode::Main => Group::Program,
             InputMode::Help(help) if help.is_searched() => Group::Filter,
             InputMode::Help(_) => Group::Help,

@@ -89,12 +89,9 @@ impl App {
 }
 
 /// Returns whether two paths name the same file, apart from `./`.
-fn same_path(one: &Path, other: &Path) -> bool {
-    let parts = |path: &Path| -> Vec<std::ffi::OsString> {
-        let named = path.components().filter(|part| *part != Component::CurDir);
-        named.map(|part| part.as_os_str().to_os_string()).collect()
-    };
-    parts(one) == parts(other)
+fn same_path<'a>(one: &'a Path, other: &'a Path) -> bool {
+    let parts = |path: &'a Path| path.components().filter(|part| *part != Component::CurDir);
+    parts(one).eq(parts(other))
 }
 
 impl App {

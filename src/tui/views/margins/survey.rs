@@ -30,6 +30,11 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let found = app.margins().and_then(|(live, old)| Some((live.survey.as_deref()?, old)));
     let mut legend = vec![(format!("speeds in {}, modes in Hz", speed_unit()), quiet)];
     legend.push(("can lock now".to_string(), sign(look, Verdict::Locked).1));
+    let is_borrowed =
+        |(survey, _): (&Survey, bool)| survey.shown(false).iter().any(|row| row.guessed);
+    if found.is_some_and(is_borrowed) {
+        legend.push(("? borrowed modes".to_string(), quiet));
+    }
     if found.is_some_and(|(_, old)| old) {
         legend.insert(0, ("for the knobs before".to_string(), look.style(Role::Focus)));
     }
