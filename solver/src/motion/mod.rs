@@ -13,6 +13,7 @@ mod drive;
 mod event;
 mod explicit;
 mod failure;
+mod plane;
 mod point;
 mod propagator;
 mod report;
@@ -28,6 +29,7 @@ pub use drive::{Pulse, Rotor, State};
 pub(crate) use event::EVENT;
 pub use event::Events;
 pub use failure::{Failure, FailureReason};
+use plane::{Plane, across, dot, size};
 pub use propagator::FreeFlight;
 pub use report::{
     FinalState, ImpactReport, LAST_PART, RunReport, Seen, SolverReport, VerdictReached, caught_at,
@@ -38,6 +40,3 @@ pub use script::{Change, Script, Scripted};
 pub use sensitivity::{Certainty, Spread, certainty, run_with_certainty};
 pub use solver::{GoOn, Motion, Solver, to_the_end};
 pub use verdict::{Basis, Checks, Contact, Outcome, Proof, Verdict};
-
-/// Point or vector in the plane of the two casing coordinates, as a complex number.
-type Plane = nalgebra::Complex<f64>;

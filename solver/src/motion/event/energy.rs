@@ -10,12 +10,12 @@ use std::f64::consts::TAU;
 
 use super::Events;
 use super::flight::amplitude;
-use super::flow::{Face, Flow, dot, size};
+use super::flow::{Face, Flow};
 use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
 use crate::motion::verdict::Trend;
-use crate::motion::{Failure, FailureReason, Plane};
+use crate::motion::{Failure, FailureReason, Plane, dot, size};
 use crate::numeric::quadrature::GAUSS_8;
 use crate::numeric::search::bisected;
 

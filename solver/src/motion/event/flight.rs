@@ -3,10 +3,10 @@
 
 use std::f64::consts::TAU;
 
-use super::flow::{Flow, dot, size};
-use crate::motion::Plane;
+use super::flow::Flow;
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
+use crate::motion::{Plane, dot, size};
 use crate::numeric::rounding::ROUNDINGS;
 
 impl Flow {

@@ -17,9 +17,9 @@
 //! slope and friction move the blades far more than the phase does.
 
 use crate::model::Machine;
-use crate::motion::Plane;
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
+use crate::motion::{Plane, across, dot, size};
 use crate::scene::{ModelSize, Scene};
 
 /// Gaps below this part of the motion's size count as closed: a few roundings. Larger: impacts come
@@ -391,19 +391,4 @@ impl Blades {
         let angle = moment_arm * (push / omega + speed) / omega;
         omega > RIGID_RATES * rates && self.diameters * angle * half_side < RIGID_GAP * clearance
     }
-}
-
-/// Returns the length of a vector, without the care of `hypot` at the ends of the number range.
-pub(super) fn size(vector: Plane) -> f64 {
-    vector.norm_sqr().sqrt()
-}
-
-/// Returns the component of a vector along a direction.
-pub(super) fn dot(direction: Plane, vector: Plane) -> f64 {
-    direction.re * vector.re + direction.im * vector.im
-}
-
-/// Returns the component of a vector across a direction, a quarter turn ahead of it.
-pub(super) fn across(direction: Plane, vector: Plane) -> f64 {
-    direction.re * vector.im - direction.im * vector.re
 }

@@ -6,11 +6,11 @@
 //! force has vanished opens and is not tested again.
 
 use super::Events;
-use super::flow::{Face, size};
+use super::flow::Face;
 use super::seek::OpenedGap;
 use super::stretch::Held;
 use crate::motion::point::Point;
-use crate::motion::{ActiveSet, FailureReason};
+use crate::motion::{ActiveSet, FailureReason, size};
 use crate::numeric::rounding::ROUND_OFF;
 
 /// A closing rate below this part of `omega_c g0` is a touch and not an impact: round-off of the

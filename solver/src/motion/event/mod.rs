@@ -31,12 +31,12 @@ use crate::model::Machine;
 use crate::motion::point::Point;
 use crate::motion::{
     Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
-    State, Verdict, in_phase_order,
+    State, Verdict, dot, in_phase_order,
 };
 use crate::numeric::lcp::Lcp;
 use crate::scene::{CheckedScene, SceneError};
 use energy::{Energies, Swings};
-use flow::{Flow, dot};
+use flow::Flow;
 use impact::Touch;
 use lasting::Rest;
 use run::Run;

@@ -7,11 +7,11 @@
 //! the blade angles in normal and lever of a row add three products of series to what earlier terms
 //! push, and the turning of its normal adds `curvature_j`.
 
-use super::flow::{Blades, Face, Flow, dot, size};
+use super::flow::{Blades, Face, Flow};
 use super::series::{STRETCH, TERMS, Terms, ended, gap, values};
-use crate::motion::Plane;
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
+use crate::motion::{Plane, dot, size};
 use crate::numeric::elimination::{Square, inverse};
 use crate::numeric::rounding::ROUND_OFF;
 

@@ -3,12 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::Events;
-use super::flow::size;
 use super::impact::Touch;
 use super::seek::{Ending, OpenedGap, seek};
 use super::stretch::{Held, Stretch};
 use crate::motion::point::Point;
-use crate::motion::{FailureReason, Plane};
+use crate::motion::{FailureReason, Plane, size};
 use crate::numeric::rounding::ROUNDINGS;
 
 /// Part of the clearance up to which a gap that has just opened is stored separately from the state.

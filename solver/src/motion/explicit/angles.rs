@@ -94,11 +94,6 @@ impl Disk {
         }
     }
 
-    /// Returns the largest angle of any blade in all steps \[rad\].
-    pub fn largest(&self) -> f64 {
-        self.largest
-    }
-
     /// From now on records only angles beyond the limit of the model.
     pub fn forgo_largest(&mut self) {
         self.largest = self.largest.max(LARGEST_BLADE_ANGLE);

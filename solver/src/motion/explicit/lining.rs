@@ -14,7 +14,7 @@ use super::row::SHORT_SERIES_PHASE;
 use super::row::{Tip, TipLaw, Tips, series, short_series};
 use super::shapes::Four;
 use crate::model::LiningLaw;
-use crate::motion::{ActiveSet, Plane};
+use crate::motion::{ActiveSet, Plane, across};
 
 /// State of the lining: its indentation and its pushes.
 #[derive(Clone, Debug)]
@@ -368,7 +368,7 @@ impl Explicit {
         }
         let [c, s] = self.moved();
         let moved = Plane::new(0.5 * c, 0.5 * s) * lining.turn.conj();
-        let along = moved.im * force.re - moved.re * force.im;
+        let along = across(force, moved);
         let rows = lining.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0);
         let bent: f64 = rows
             .map(|(row, depth)| {

@@ -30,7 +30,7 @@ mod strides;
 
 use std::sync::{Arc, OnceLock};
 
-use super::{Failure, Plane};
+use super::{Failure, Plane, across};
 use crate::model::Machine;
 use crate::numeric::lcp::Lcp;
 use crate::scene::{CheckedScene, ContactLaw, ModelSize};
@@ -221,7 +221,7 @@ impl Explicit {
         }
         let [c, s] = self.moved();
         let moved = Plane::new(0.5 * c, 0.5 * s) * turn.conj();
-        let along = moved.im * normal.re - moved.re * normal.im;
+        let along = across(normal, moved);
         let turned = 0.5 * (self.disk.angle(row.index) - self.disk.angle_before(row.index));
         let (radius, bent) = (self.scene.casing.radius_m, self.machine.blade_length * turned);
         let sums = &mut self.ledger.sums;

@@ -12,7 +12,7 @@
 //! (docs/theory.md, sections 10 and 11).
 
 use crate::model::Machine;
-use crate::motion::{ActiveSet, Plane};
+use crate::motion::{ActiveSet, Plane, across, dot};
 
 /// Blade phase below which sine and cosine are two terms of their series
 /// \[rad\]: exact to round-off.
@@ -171,8 +171,7 @@ impl Tips {
     /// Returns the gap of a side of the polygon at `w`, less the clearance \[m\].
     #[inline(always)]
     pub fn open(&self, side: usize, w: Plane) -> f64 {
-        let Side { normal, .. } = self.sides[side];
-        w.re * normal.re + w.im * normal.im
+        dot(self.sides[side].normal, w)
     }
 
     /// Returns the side with the smallest gap at `w`, looked for from side `near`, its gap and those
@@ -197,7 +196,7 @@ impl Tips {
     /// are held \[m\].
     pub fn least_gap(&self, z: Plane, law: &TipLaw, held: ActiveSet) -> f64 {
         let open = self.rows.iter().filter(|tip| !held.includes(tip.side));
-        let gaps = open.map(|tip| z.re * tip.normal.re + z.im * tip.normal.im - tip.longer);
+        let gaps = open.map(|tip| dot(tip.normal, z) - tip.longer);
         law.clearance + gaps.fold(f64::INFINITY, f64::min)
     }
 
@@ -216,9 +215,8 @@ impl Tips {
         let Tip { side, normal, longer } = self.rows[index];
         let normal = turned(normal, tips.diameters * angle);
         let [shape, steep] = self.shape(index, angle, lobe_turn);
-        let gap = tips.clearance - longer + shape - tips.rise * angle
-            + (z.re * normal.re + z.im * normal.im);
-        let arm = tips.diameters * (z.im * normal.re - z.re * normal.im) + steep;
+        let gap = tips.clearance - longer + shape - tips.rise * angle + dot(normal, z);
+        let arm = tips.diameters * across(normal, z) + steep;
         Row { index, side, normal, gap, arm, apart: gap, lambda: 0.0 }
     }
 }

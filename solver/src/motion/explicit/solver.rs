@@ -196,7 +196,7 @@ impl Solver for Explicit {
             max_penetration_m: record.deepest,
             max_predicted_penetration_m: self.lining.is_none().then_some(record.deepest_predicted),
             tensile_steps: record.log.tensile_steps,
-            max_blade_angle_rad: self.disk.largest(),
+            max_blade_angle_rad: self.disk.largest,
             energy_residual_j: self.energy_account().map(|ledger| ledger.residual()),
         }
     }

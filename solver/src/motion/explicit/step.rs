@@ -16,7 +16,7 @@ use super::Explicit;
 use super::lasting::mark;
 use super::row::{Row, Tip, TipLaw};
 use crate::motion::failure::MOST_ROWS;
-use crate::motion::{ActiveSet, FailureReason, Plane};
+use crate::motion::{ActiveSet, FailureReason, Plane, dot};
 use crate::numeric::lcp;
 use crate::numeric::rounding::ROUND_OFF;
 
@@ -166,8 +166,8 @@ impl Explicit {
         }
         for row in 0..self.tips_of_rows.rows.len() {
             let Tip { normal, longer, .. } = self.tips_of_rows.rows[row];
-            let mut gap = tips.clearance - longer - self.tips_of_rows.out_of_round - look
-                + (z.re * normal.re + z.im * normal.im);
+            let mut gap =
+                tips.clearance - longer - self.tips_of_rows.out_of_round - look + dot(normal, z);
             if tips.rise != 0.0 {
                 gap -= self.highest_rise(row, tips);
             }
@@ -247,7 +247,7 @@ impl Explicit {
         // How far a unit multiplier of `b` closes the gap of `a`.
         let entry = |a: &Row, b: &Row| {
             let push = tips.push_on_casing(b.normal);
-            casing.compliance * (a.normal.re * push.re + a.normal.im * push.im)
+            casing.compliance * dot(a.normal, push)
                 + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a.index, b.index)
         };
         match rows {

@@ -38,7 +38,7 @@ use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::oscillator::{Coordinate, Oscillator};
 use super::step::NEIGHBOUR_DEPTHS;
-use crate::motion::Plane;
+use crate::motion::{Plane, dot};
 
 /// Coordinates of a state: casing `z`, its increment, two modes, their increments.
 const SIZE: usize = 8;
@@ -365,7 +365,6 @@ fn turn_of_tips(
     pushes: [f64; HELD],
     z: Plane,
 ) -> (OfTips, Square) {
-    let dot = |a: Plane, b: Plane| a.re * b.re + a.im * b.im;
     let (mut apart, mut turning) = (OfTips::zeros(), Square::zeros());
     for (tip, push) in tips.iter().zip(pushes) {
         let across = tip.normal * Plane::i();

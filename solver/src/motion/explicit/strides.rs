@@ -16,7 +16,7 @@ use super::oscillator::{Coordinate, Oscillator};
 use super::row::Row;
 use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap, modes_of};
 use crate::model::LARGEST_BLADE_ANGLE;
-use crate::motion::{ActiveSet, Plane};
+use crate::motion::{ActiveSet, Plane, across};
 
 /// Steps with the same tips in contact before a stride is tried: longer than a pause within one
 /// contact.
@@ -123,7 +123,7 @@ impl Explicit {
         let length = high.0 - low.0;
         let part = length as f64 / stride.steps as f64;
         let most = low.1.max(high.1) + stride.sag * part * part;
-        if length < 2 || most <= self.disk.largest() * (1.0 + ANGLE_UNSEEN) {
+        if length < 2 || most <= self.disk.largest * (1.0 + ANGLE_UNSEEN) {
             return;
         }
         let step = low.0 + length / 2;
@@ -146,7 +146,7 @@ impl Explicit {
         // No cause of a failure may lie within the stride.
         let fails = reach > LARGEST_BLADE_ANGLE || farthest > self.scene.casing.radius_m;
         // Only the angles of a pair of modes are looked for inside of it.
-        let may_pass = reach > self.disk.largest();
+        let may_pass = reach > self.disk.largest;
         let is_unseen = may_pass && !self.disk.is_pair();
         if fails || is_unseen || self.dips != [0.0; 2] || !self.disk.is_tuned() {
             return None;
@@ -242,7 +242,7 @@ impl Explicit {
         let turn = self.drive.turn(self.n);
         let [a, b] = [a, b].map(|row| self.row(row, self.place(turn)));
         let (p, q) = (a.normal, b.normal);
-        let area = p.re * q.im - p.im * q.re;
+        let area = across(p, q);
         let shift = Plane::new(b.gap * p.im - a.gap * q.im, a.gap * q.re - b.gap * p.re) / area;
         let moved = shift * turn;
         self.u[0].x += moved.re;
