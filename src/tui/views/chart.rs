@@ -12,8 +12,7 @@ use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::panel::{ViewArea, dots, entry};
-use rubscope_solver::study::figures::Style as Stroke;
-use rubscope_solver::study::figures::{Panel, Series};
+use rubscope_solver::study::figures::{Panel, Series, Style as Stroke};
 
 /// A chart; what is drawn later covers what is drawn before it.
 pub struct Chart<'a> {
@@ -136,12 +135,8 @@ pub fn legend(look: &Appearance, panel: &Panel) -> [Vec<(String, Style)>; 2] {
 /// prints nothing if none is free.
 fn name_level(plot: &mut Plot, x: ChartAxis, level: f64, name: &str, style: Style) {
     let Some(row) = plot.row(level) else { return };
-    let parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
-    for part in parts {
-        if plot.free_note(x.at(part), row, name, style) {
-            return;
-        }
-    }
+    let mut parts = (0..=LEVEL_PLACES).rev().map(|k| f64::from(k) / f64::from(LEVEL_PLACES));
+    _ = parts.any(|part| plot.free_note(x.at(part), row, name, style));
 }
 
 /// Number of positions along a level that are tried for its label.

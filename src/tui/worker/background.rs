@@ -2,7 +2,6 @@
 //! nor the next order waits for it; when it is dropped, the thread ends as soon as the work looks:
 //! that of runs within about a millisecond, that of the margins within their rest of 200 ms.
 
-use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -15,6 +14,7 @@ use rubscope_solver::motion::GoOn;
 pub const WORKER_NAME: &str = "rubscope-worker";
 
 /// A running computation that sends results one by one.
+#[derive(Debug)]
 pub struct Background<T> {
     /// Where the results arrive; `None` once no more will come.
     results: Option<Receiver<T>>,
@@ -25,16 +25,11 @@ pub struct Background<T> {
 /// Largest number of threads for one computation.
 const MOST_THREADS: usize = 16;
 
-/// Returns the number of background threads; one core is left for the screen and the playback.
-fn spare_threads() -> usize {
-    let cores = available_parallelism().map_or(1, usize::from);
-    cores.saturating_sub(1).clamp(1, MOST_THREADS)
-}
-
 /// Runs `work` on a thread pool that leaves one core free, because the playback continues.
 pub fn on_spare_cores<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    let cores = available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(spare_threads())
+        .num_threads(cores.saturating_sub(1).clamp(1, MOST_THREADS))
         .thread_name(|_| WORKER_NAME.to_string())
         .build();
     match pool {
@@ -79,12 +74,6 @@ impl<T: Send + 'static> Background<T> {
 impl<T> Drop for Background<T> {
     fn drop(&mut self) {
         self.dropped.store(true, Ordering::Relaxed);
-    }
-}
-
-impl<T> fmt::Debug for Background<T> {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.debug_struct("Background").field("done", &self.results.is_none()).finish()
     }
 }
 

@@ -55,8 +55,7 @@ impl ViewPanel for GapsView {
         }
         let shown = |gap: f64| gap.clamp(range.low, range.high);
         if count <= room {
-            let sign =
-                if 2 * count <= room { look.either('●', 'o') } else { look.either('•', 'o') };
+            let sign = look.either(if 2 * count <= room { '●' } else { '•' }, 'o');
             let first = look.style(Role::First);
             chart.points = known().map(|(blade, gap)| (blade, shown(gap), sign, first)).collect();
         }

@@ -9,8 +9,6 @@ mod words;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-pub use words::value_text;
-
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
 use crate::report::Sheet;
 use crate::report::map::sheet;
@@ -25,7 +23,7 @@ use crate::tui::views::id::ViewId;
 use plan::{LiveMap, MapAxis, MapChoice};
 use rubscope_solver::scene::{CheckedScene, ContactLaw};
 use rubscope_solver::study::{Axis, MapPlan};
-use words::Line;
+use words::{Line, value_text};
 
 /// Width from which the legend is a column beside the map.
 const BESIDE_FROM: u16 = 92;

@@ -9,7 +9,6 @@ mod survey;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
-use crate::report::margins::robust;
 use crate::report::number::{rounded, speed_unit};
 use crate::report::survey::sheet;
 use crate::report::{Sheet, margins};
@@ -178,10 +177,10 @@ impl App {
 fn head(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limits: usize) -> u16 {
     let (look, mut lines) = (&app.appearance, Vec::new());
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
-    for (place, found) in robust::asked(margins).enumerate() {
-        let sentence = robust::sentence(found, margins, width >= WIDE);
+    for (place, found) in margins::robust::asked(margins).enumerate() {
+        let sentence = margins::robust::sentence(found, margins, width >= WIDE);
         let sentence = wrap(&look.spell(&sentence), width);
-        let shown = |at| robust::table(found, at).lines(usize::MAX, 1);
+        let shown = |at| margins::robust::table(found, at).lines(usize::MAX, 1);
         let wide = |row: &Vec<String>| row.join(" ").chars().count() > width;
         let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
         let rows = ways.unwrap_or_else(|| {

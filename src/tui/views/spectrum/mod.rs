@@ -127,7 +127,8 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
         (format!("{} by {}", frequency_unit(), speed_unit()), quiet),
     ];
     let inside = title(app, buffer, at, "Campbell", &legend);
-    let fastest = app.results().found.locked.as_ref().map_or(600.0, |curves| curves.fastest);
+    let fastest =
+        app.results().found.locked.as_ref().map_or(600.0, |curves| curves.speeds.range[1]);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
     // The speed axis covers the current direction of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };

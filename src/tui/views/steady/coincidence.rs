@@ -4,8 +4,8 @@
 
 use ratatui::buffer::Buffer;
 
+use super::SpeedChart;
 use super::coincidence_curves::{CoincidenceCurves, points};
-use super::{SpeedChart, Speeds};
 use crate::report::Sheet;
 use crate::report::hbm::coincidence::add_points;
 use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
@@ -13,7 +13,6 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::text::print;
 use crate::tui::theme::Role;
-use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, not_yet, title};
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
@@ -26,7 +25,7 @@ pub struct CoincidenceView;
 
 impl ViewPanel for CoincidenceView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        let (Some(curves), Some(sheet)) = (curves(app), self.sheet(app)) else {
+        let Some(curves) = curves(app) else {
             let inside = title(app, buffer, at, PANELS[0][0], &[]);
             if app.results().found.coincidence.is_none() {
                 return not_yet(app, buffer, inside);
@@ -37,11 +36,11 @@ impl ViewPanel for CoincidenceView {
         let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
         let (first, second) = if grows { at.pair(40) } else { (at, None) };
         let areas = [Some(first), second].into_iter().flatten();
-        for ((panel, at), [name, unit]) in sheet.panels().iter().zip(areas).zip(PANELS) {
+        for ((panel, at), [name, unit]) in curves.speeds.panels.iter().zip(areas).zip(PANELS) {
             let (mut now, mut text, mut beyond) = (None, None, Vec::new());
             if unit == "rad" {
                 now = amplitude(app).map(|angle| (angle, readable(angle, unit)));
-                text = Some(match speeds(curves).read(app) {
+                text = Some(match curves.speeds.read(app) {
                     Some(speed) => (reading(app, speed), Role::Focus),
                     None => (sentence(app, curves), Role::Quiet),
                 });
@@ -53,13 +52,13 @@ impl ViewPanel for CoincidenceView {
             let y = if y.high > y.low { y } else { ChartAxis::scaled(0.0, 1e-4) };
             let now = Some(now.as_slice()).filter(|now| !now.is_empty());
             let chart = SpeedChart { name, panel, y, unit, now, notes: Vec::new(), beyond, text };
-            speeds(curves).draw(app, buffer, at, chart);
+            curves.speeds.draw(app, buffer, at, chart);
         }
     }
 
     fn here(&self, app: &App) -> Cursor {
         let middle = Cursor { across: 0.5, up: 0.5 };
-        curves(app).map_or(middle, |curves| speeds(curves).here(app))
+        curves(app).map_or(middle, |curves| curves.speeds.here(app))
     }
 
     fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
@@ -71,11 +70,6 @@ impl ViewPanel for CoincidenceView {
 
 fn curves(app: &App) -> Option<&CoincidenceCurves> {
     app.results().found.coincidence.as_deref()?.as_ref()
-}
-
-fn speeds(curves: &CoincidenceCurves) -> Speeds<'_> {
-    let CoincidenceCurves { from, to, markers, .. } = curves;
-    Speeds { view: ViewId::Coincidence, range: [*from, *to], marks: markers }
 }
 
 /// Summarises the curves in one sentence.

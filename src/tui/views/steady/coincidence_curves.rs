@@ -2,8 +2,11 @@
 //! range around both coincidences (docs/theory.md, section 10). They are closed forms, except on a
 //! lining, where each point is a search.
 
+use super::speeds::Speeds;
+use crate::report::hbm::coincidence::add_points;
 use crate::report::ticks::linspace;
 use crate::tui::axis::nice_step;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
 use rubscope_solver::model::{Initial, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
@@ -18,14 +21,10 @@ const NEAR: f64 = 0.15;
 const BEYOND: f64 = 0.25;
 
 /// Growth and amplitude of the wave over speed, for one scene.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct CoincidenceCurves {
-    /// Lower end of the speed range, as a magnitude \[rad/s\].
-    pub from: f64,
-    /// Upper end of the speed range, as a magnitude \[rad/s\].
-    pub to: f64,
-    /// Marked speeds, as magnitudes in ascending order \[rad/s\], with their labels.
-    pub markers: Vec<(f64, &'static str)>,
+    /// The speeds around the coincidences, and the panels of the points.
+    pub speeds: Speeds,
     /// Points in order of |speed|; speeds are negative if the rotor turns backward.
     pub points: Vec<CoincidencePoint>,
 }
@@ -45,7 +44,11 @@ impl CoincidenceCurves {
         speeds.dedup();
         let sense = if scene.operation.speed_rad_s < 0.0 { -1.0 } else { 1.0 };
         let speeds: Vec<f64> = speeds.into_iter().map(|speed| sense * speed).collect();
-        Some(Self { from, to, markers, points: points(scene, &speeds) })
+        let points = points(scene, &speeds);
+        let (view, range, marks) = (ViewId::Coincidence, [from, to], markers);
+        let speeds = Speeds { view, range, marks, panels: Vec::new() };
+        let speeds = speeds.with_panels(scene, |sheet| add_points(&points, "", sheet));
+        Some(Self { speeds, points })
     }
 
     /// Returns the scene without everything that does not affect the curves. Equal keys mean that

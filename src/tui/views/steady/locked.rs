@@ -6,7 +6,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout};
 
 use super::locked_curves::LockedCurves;
-use super::{NAMED_FROM, SpeedChart, Speeds, present};
+use super::{NAMED_FROM, SpeedChart, present};
 use crate::report::Sheet;
 use crate::report::hbm::locked::add_points;
 use crate::report::number::speed_unit;
@@ -16,7 +16,6 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::text::print;
 use crate::tui::theme::Role;
-use crate::tui::views::ViewId;
 use crate::tui::views::panel::{ViewArea, ViewPanel, entry, not_yet, title};
 use rubscope_solver::harmonic::{Form, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
@@ -37,10 +36,10 @@ pub struct LockedView;
 impl ViewPanel for LockedView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let curves = app.results().found.locked.as_deref();
-        let (Some(curves), Some(sheet)) = (curves, self.sheet(app)) else {
+        let Some(curves) = curves.filter(|curves| curves.damped.is_some()) else {
             return nothing(app, buffer, at);
         };
-        let mut panels = sheet.panels();
+        let mut panels = curves.speeds.panels.clone();
         panels.truncate(usize::from(at.area.height / LEAST_ROWS).max(1));
         let below = u16::try_from(panels.len()).unwrap_or(1) - 1;
         let lower = (at.area.height * 2 / (3 + 2 * below)).max(LEAST_ROWS);
@@ -49,8 +48,7 @@ impl ViewPanel for LockedView {
         let areas = Layout::vertical(rows).split(at.area);
         for ((panel, area), [name, unit, note]) in panels.iter_mut().zip(&*areas).zip(PANELS) {
             let at = ViewArea { area: *area, ..at };
-            let (mut now, mut text) = (Vec::new(), None);
-            let mut notes = vec![note];
+            let (mut now, mut text, mut notes) = (Vec::new(), None, vec![note]);
             let is_first = unit == "N";
             if is_first {
                 name_multipliers(app, curves, panel);
@@ -58,7 +56,7 @@ impl ViewPanel for LockedView {
                 notes.extend(app.has_lining().then_some("of a rigid casing"));
                 notes.extend((app.machine.out_of_round() != 0.0).then_some("of a round casing"));
                 notes.extend(app.tuned_note());
-                let read = speeds(curves).read(app).filter(|_| at.large);
+                let read = curves.speeds.read(app).filter(|_| at.large);
                 text = read.map(|speed| (reading(app, speed), Role::Focus));
             }
             // The scale follows the curves, because the mean force over an impact can be far
@@ -76,13 +74,13 @@ impl ViewPanel for LockedView {
             let name = if is_first && at.area.width < NAMED_FROM { "λ(Ω)" } else { name };
             let (now, beyond) = (is_first.then_some(now.as_slice()), Vec::new());
             let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
-            speeds(curves).draw(app, buffer, at, chart);
+            curves.speeds.draw(app, buffer, at, chart);
         }
     }
 
     fn here(&self, app: &App) -> Cursor {
         let curves = app.results().found.locked.as_deref();
-        curves.map_or(Cursor { across: 0.5, up: 0.5 }, |curves| speeds(curves).here(app))
+        curves.map_or(Cursor { across: 0.5, up: 0.5 }, |curves| curves.speeds.here(app))
     }
 
     fn text(&self, app: &App) -> String {
@@ -95,10 +93,6 @@ impl ViewPanel for LockedView {
         add_points(&damped.points, &mut sheet);
         Some(sheet)
     }
-}
-
-fn speeds(curves: &LockedCurves) -> Speeds<'_> {
-    Speeds { view: ViewId::Locked, range: [0.0, curves.fastest], marks: &curves.marks }
 }
 
 /// Names the multipliers, and adds that of the stable whirl. Without damping, equal tips have equal

@@ -1,7 +1,10 @@
 //! The curves of view 3 over a rounded speed range: the locked motion from the harmonic balance,
 //! with and without damping, and, with radial coupling, the multiplier of the stable whirl.
 
+use super::speeds::Speeds;
+use crate::report::hbm::locked::add_points;
 use crate::tui::axis::nice_step;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::harmonic::{Form, RoundWhirl, SpeedRanges, Sweep, locked_motion};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{ContactLaw, Scene};
@@ -10,10 +13,10 @@ use rubscope_solver::scene::{ContactLaw, Scene};
 const POINTS: u32 = 161;
 
 /// Multipliers over speed of one machine.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct LockedCurves {
-    /// End of the speed range, which begins at 0, as a magnitude \[rad/s\].
-    pub fastest: f64,
+    /// The speeds from 0 on, and the panels of the damped motion.
+    pub speeds: Speeds,
     /// The locked motion with the damping of the scene; `None` if the machine has no locked motion.
     pub damped: Option<Sweep>,
     /// The locked motion without damping, as in the paper; `None` if the machine has no locked
@@ -27,8 +30,6 @@ pub struct LockedCurves {
     /// Magnitude of the speed up to which the scales include the values \[rad/s\]. Beyond it the
     /// locked motion can have a resonance of casing and blades, which would flatten the rest.
     pub scaled_to: f64,
-    /// Marked speeds, as magnitudes in ascending order \[rad/s\], with their labels.
-    pub marks: Vec<(f64, &'static str)>,
 }
 
 impl LockedCurves {
@@ -39,24 +40,27 @@ impl LockedCurves {
         let step = fastest / f64::from(POINTS - 1);
         // A rotor that turns backward has its own locked motion, drawn over |Ω|.
         let sense = scene.operation.speed_rad_s.signum();
-        let speeds: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
+        let at: Vec<f64> = (0..POINTS).map(|k| sense * f64::from(k) * step).collect();
         let open = machine.clearance_at_rest() > 0.0;
         let curve = |damped| {
-            open.then(|| locked_motion(&machine, Form::Modal, damped, None, &speeds).ok()).flatten()
+            open.then(|| locked_motion(&machine, Form::Modal, damped, None, &at).ok()).flatten()
         };
         let has_damping = machine.casing_damping > 0.0 || machine.tips_incline_or_rub();
+        let damped = curve(true);
+        let (range, marks) = ([0.0, fastest], marks(scene, &machine));
+        let speeds = Speeds { view: ViewId::Locked, range, marks, panels: Vec::new() };
+        let speeds = speeds.with_panels(scene, |sheet| {
+            damped.iter().for_each(|damped| add_points(&damped.points, sheet));
+        });
         Self {
-            fastest,
-            damped: curve(true),
+            speeds,
+            damped,
             undamped: has_damping.then(|| curve(false)).flatten(),
-            whirl: whirl(scene, &machine, &speeds),
+            whirl: whirl(scene, &machine, &at),
             scaled_to: scaled_to(scene, &machine).unwrap_or(fastest),
-            marks: marks(scene, &machine),
         }
     }
-}
 
-impl LockedCurves {
     /// Returns whether the scales include the values at a speed \[rad/s\].
     pub fn scales(&self, speed: f64) -> bool {
         speed.abs() <= self.scaled_to
@@ -139,15 +143,18 @@ mod tests {
         let scene = Scene::base();
         let curves = LockedCurves::of(&scene);
         let machine = scene.machine();
-        assert!(curves.fastest > 500.0 && curves.fastest > machine.lock_speed().unwrap());
+        assert!(
+            curves.speeds.range[1] > 500.0
+                && curves.speeds.range[1] > machine.lock_speed().unwrap()
+        );
         let last = *curves.damped.unwrap().points.last().unwrap();
-        let closed = machine.locked_multipliers(curves.fastest).unwrap();
+        let closed = machine.locked_multipliers(curves.speeds.range[1]).unwrap();
         for (lambda, exact) in last.multipliers_n.iter().zip(closed) {
             // Flexible blades change a multiplier by a few parts in a million.
             assert!((lambda - exact).abs() < 1e-4 * exact.abs(), "{lambda} {exact}");
         }
         let undamped = LockedCurves::of(&scene.with(&[("casing.damping_ratio", "0")]).unwrap());
-        let names: Vec<&str> = undamped.marks.iter().map(|(_, name)| *name).collect();
+        let names: Vec<&str> = undamped.speeds.marks.iter().map(|(_, name)| *name).collect();
         assert_eq!(names, ["Ω_c = Ω_lock", "coincidence"]);
     }
 

@@ -5,6 +5,7 @@ pub mod coincidence;
 pub mod coincidence_curves;
 pub mod locked;
 pub mod locked_curves;
+pub mod speeds;
 
 use ratatui::buffer::Buffer;
 use ratatui::style::Style;
@@ -14,24 +15,16 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::axis::ChartAxis;
 use crate::tui::text::whole_parts;
 use crate::tui::theme::Role;
-use crate::tui::views::ViewId;
 use crate::tui::views::chart::{Chart, curves, legend};
 use crate::tui::views::panel::{ViewArea, lines_above, title};
 use rubscope_solver::study::figures::Panel;
+use speeds::Speeds;
 
 /// Largest number of rows for the text above a chart.
 const MOST_ROWS: usize = 3;
 /// Width from which the title has room for the present values. A narrower chart prints them at
 /// their points \[columns\].
 const NAMED_FROM: u16 = 46;
-
-/// The speeds of a view.
-struct Speeds<'a> {
-    view: ViewId,
-    /// Ends of the range, as magnitudes \[rad/s\].
-    range: [f64; 2],
-    marks: &'a [(f64, &'static str)],
-}
 
 /// A chart over the speeds of a view.
 struct SpeedChart<'a> {
@@ -49,7 +42,7 @@ struct SpeedChart<'a> {
     text: Option<(String, Role)>,
 }
 
-impl Speeds<'_> {
+impl Speeds {
     /// Returns a cursor at the present speed.
     fn here(&self, app: &App) -> Cursor {
         let [from, to] = self.range;
@@ -89,7 +82,7 @@ impl Speeds<'_> {
         let mut chart = Chart::new(ChartAxis::speeds(self.range[0], self.range[1]), y);
         chart.levels.push((0.0, "", Role::Quiet));
         (chart.marks, chart.read, chart.now) =
-            (self.marks, self.read(app), Some(app.speed().abs()));
+            (&self.marks, self.read(app), Some(app.speed().abs()));
         chart.curves = curves(look, what.panel);
         let speed = app.speed().abs();
         let place = |value: f64| match value {
@@ -114,8 +107,8 @@ impl Speeds<'_> {
 
 /// Returns the legend of the values of the running motion; of many contacts it has the first two.
 fn present(app: &App, now: &[(f64, String)]) -> (String, Style) {
-    let (look, now) = (&app.appearance, now.iter().take(2).map(|(_, text)| text.as_str()));
-    let now: Vec<&str> = now.collect();
+    let now: Vec<&str> = now.iter().take(2).map(|(_, text)| text.as_str()).collect();
     let now = if now.is_empty() { "no contact".to_string() } else { now.join(" ") };
+    let look = &app.appearance;
     (format!("{} now {now}", look.either('◆', '@')), look.style(Role::Contact))
 }
