@@ -8,5 +8,5 @@
 pub mod cli;
 pub mod file;
 pub mod machine;
-pub mod report;
+pub mod sheet;
 pub mod tui;

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::options::SceneOptions;
 use super::status::{self, Done, Status};
-use crate::report::{CommandLine, check as report};
+use crate::sheet::{CommandLine, check as report};
 
 /// Summarise a scene in words: derived values, missing data, likely unit errors.
 #[derive(Args, Debug)]

@@ -10,7 +10,7 @@ use clap::Args;
 use super::status::{self, Done, Refusal, Status, say};
 use super::{output, sign};
 use crate::file::Written;
-use crate::report::{CommandLine, Provenance, figure::table, svg};
+use crate::sheet::{CommandLine, Provenance, figure::table, svg};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Which};
 

@@ -9,9 +9,9 @@ use super::options::{SceneOptions, Swept};
 use super::output::OutputOptions;
 use super::status::{self, Done, Refusal, Status};
 use super::words::Words;
-use crate::report::CommandLine;
-use crate::report::hbm::{LOCKED, Request, VIEWS, View};
-use crate::report::ticks::linspace;
+use crate::sheet::CommandLine;
+use crate::sheet::hbm::{LOCKED, Request, VIEWS, View};
+use crate::sheet::ticks::linspace;
 use rubscope_solver::harmonic::{Form, HarmonicError};
 use rubscope_solver::scene::Scene;
 

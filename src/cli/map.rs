@@ -12,9 +12,9 @@ use super::output::OutputOptions;
 use super::range::Range;
 use super::sign;
 use super::status::{self, Done, Refusal, Status};
-use crate::report::map as report;
-use crate::report::number::from_shown;
-use crate::report::part::{self, Shard};
+use crate::sheet::map as report;
+use crate::sheet::number::from_shown;
+use crate::sheet::part::{self, Shard};
 use rubscope_solver::scene::keys;
 use rubscope_solver::study::{Axis, AxisError, Map, MapPlan};
 

@@ -10,7 +10,7 @@ use super::range::Range;
 use super::status::{Refusal, note, say};
 use super::words::Words;
 use crate::machine::range_doubt;
-use crate::report::number::{tell_in_rpm, with_typed_unit};
+use crate::sheet::number::{tell_in_rpm, with_typed_unit};
 use rubscope_solver::model::Operation;
 use rubscope_solver::scene::{
     Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Quantity, Scene, SceneError,

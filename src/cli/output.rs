@@ -9,9 +9,9 @@ use clap::Args;
 
 use super::status::{Refusal, say};
 use crate::file::{self, Written};
-use crate::report::Sheet;
-use crate::report::line::listed;
-use crate::report::table::Table;
+use crate::sheet::Sheet;
+use crate::sheet::line::listed;
+use crate::sheet::table::Table;
 
 /// Endings of the files that a result can be written to.
 const ENDINGS: [&str; 3] = ["csv", "json", "svg"];

@@ -8,7 +8,7 @@ use super::options::SceneOptions;
 use super::output::OutputOptions;
 use super::sign;
 use super::status::{self, Done, Refusal, Status, say};
-use crate::report::{CommandLine, precision as report};
+use crate::sheet::{CommandLine, precision as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::study::precision::{Effort, Measure, Method, ways};
 

@@ -1,7 +1,7 @@
 //! `FROM:TO:COUNT`, a range of values that a command sweeps.
 
 use super::status::Refusal;
-use crate::report::ticks::linspace;
+use crate::sheet::ticks::linspace;
 use rubscope_solver::scene::Quantity;
 use rubscope_solver::scene::units::RangeError;
 use rubscope_solver::study::parse_range;

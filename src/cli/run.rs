@@ -11,8 +11,8 @@ use super::output::OutputOptions;
 use super::script::{self, RequestedScript};
 use super::sign;
 use super::status::{self, Done, Refusal, Status};
-use crate::report::history::HISTORY_VALUES;
-use crate::report::{CommandLine, History, Wall, summary};
+use crate::sheet::history::HISTORY_VALUES;
+use crate::sheet::{CommandLine, History, Wall, summary};
 use rubscope_solver::motion::{Sample, Sampling, Verdict, run_to_end, to_the_end};
 use rubscope_solver::scene::{Scene, SolverKind};
 

@@ -9,7 +9,7 @@
 use serde::{Serialize, Serializer};
 
 use super::status::Refusal;
-use crate::report::number::time;
+use crate::sheet::number::time;
 use rubscope_solver::motion;
 use rubscope_solver::scene::keys::{self, Live, SPEED};
 use rubscope_solver::scene::units::UnitError;

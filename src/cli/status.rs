@@ -9,7 +9,7 @@ use clap::error::ErrorKind as Usage;
 use thiserror::Error;
 
 use super::sign;
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 use rubscope_solver::scene::SceneError;
 
 /// Result of a command: its exit status, or the error that prevented it.

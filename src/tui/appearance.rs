@@ -6,7 +6,7 @@ use super::field::CURSOR;
 use super::ground::Ground;
 use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
-use crate::report::number::{spell_micro, tell_in_rpm};
+use crate::sheet::number::{spell_micro, tell_in_rpm};
 
 /// Theme, marker and unit of speeds that the screen uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

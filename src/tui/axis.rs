@@ -1,9 +1,9 @@
 //! Axes: round ticks (steps of 1, 2 or 5), labels with one SI prefix per axis, and ranges that
 //! follow the data with hysteresis, so that the scale does not jump.
 
-pub use crate::report::number::SiScale;
-use crate::report::number::{in_shown_unit, in_tenths, per_frequency, per_speed, trimmed};
-pub use crate::report::ticks::{nice_step, ticks};
+pub use crate::sheet::number::SiScale;
+use crate::sheet::number::{in_shown_unit, in_tenths, per_frequency, per_speed, trimmed};
+pub use crate::sheet::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
 #[derive(Clone, Copy, Debug)]
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn an_axis_of_speeds_has_round_ticks_in_the_unit_of_speeds() {
-        crate::report::number::tell_in_rpm(true);
+        crate::sheet::number::tell_in_rpm(true);
         let axis = ChartAxis::speeds(0.0, 600.0);
         let (values, step) = axis.ticks(5);
         let labels: Vec<String> = values.iter().map(|value| axis.label(*value, step)).collect();
@@ -235,7 +235,7 @@ mod tests {
             (ChartAxis::frequencies(0.0, 600.0).ticks(6).0[1] - 20.0 * std::f64::consts::TAU).abs()
                 < 1e-9
         );
-        crate::report::number::tell_in_rpm(false);
+        crate::sheet::number::tell_in_rpm(false);
         assert!(labels.len() > 2, "{labels:?}");
         assert!(labels.iter().all(|label| label.parse::<u32>().unwrap() % 1000 == 0), "{labels:?}");
         assert_eq!(shown, ("1500 rpm".into(), "-954.9 rpm".into()));

@@ -17,7 +17,7 @@ use super::lessons::LessonsDone;
 use super::raster::Marker;
 use super::theme::ThemeChoice;
 use crate::file;
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 
 /// Largest file that is read \[bytes\].
 const MOST_BYTES: u64 = 64 * 1024;

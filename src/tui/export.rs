@@ -10,8 +10,8 @@ use super::app::{App, InputMode};
 use super::panels;
 use super::raster::sub_pixels;
 use super::theme::Theme;
-use crate::report::Provenance;
-use crate::report::svg::{describe, escaped};
+use crate::sheet::Provenance;
+use crate::sheet::svg::{describe, escaped};
 
 /// Size of a cell in the picture \[px\].
 const CELL: (u32, u32) = (8, 17);

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use std::thread;
 
 use crate::file;
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 use rubscope_solver::scene::{BUILTIN, CheckedScene, Scene};
 
 /// Name of the threads that read and write files, by which the panic hook knows them: their panics

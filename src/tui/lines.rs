@@ -20,7 +20,7 @@ use super::theme::Theme;
 use super::views::id::ViewId;
 use super::worker::Playback;
 use super::{ability, config, panels};
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 use rubscope_solver::scene::{CheckedScene, Scene};
 
 /// Longest command line that is read \[bytes\].

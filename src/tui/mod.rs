@@ -63,7 +63,7 @@ pub use raster::Marker;
 pub use run::{Exit, run};
 pub use theme::{Theme, ThemeChoice};
 
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 use anyhow::Context;
 use rubscope_solver::scene::CheckedScene;
 

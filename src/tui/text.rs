@@ -3,7 +3,7 @@
 use ratatui::widgets::{Clear, Widget};
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
-use crate::report::line::{harmless, wrapped};
+use crate::sheet::line::{harmless, wrapped};
 
 /// Upper bound on the average number of characters per cell. A letter may carry several accents;
 /// longer sequences are cut.

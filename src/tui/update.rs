@@ -7,7 +7,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 
 use super::app::{App, Cursor, HelpState, InputMode, Writing};
 use crate::file;
-use crate::report::line::{self, clean};
+use crate::sheet::line::{self, clean};
 use crate::tui::app::layout::MOST_BESIDE;
 use crate::tui::app::play::RATES;
 use crate::tui::command::chord::Chord;

@@ -6,7 +6,7 @@ use std::fmt::Debug;
 
 use rubscope::cli::range::Range;
 use rubscope::cli::script::{RequestedScript, parse};
-use rubscope::report::part::{read_all, write};
+use rubscope::sheet::part::{read_all, write};
 use rubscope_solver::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Quantity, Scene, Value, keys};
 use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
 

@@ -118,7 +118,7 @@ fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
 
 /// What the program prints of a run.
 fn told(report: &RunReport) -> String {
-    rubscope::report::summary::lines(report, Default::default()).join("\n")
+    rubscope::sheet::summary::lines(report, Default::default()).join("\n")
 }
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.

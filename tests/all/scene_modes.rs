@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rubscope::report::CommandLine;
+use rubscope::sheet::CommandLine;
 use rubscope_solver::scene::{BUILTIN, Scene};
 
 use crate::close;

@@ -1,7 +1,7 @@
 //! Every step of every lesson, through the explorer: answers, tasks, and what the
 //! text says against what the solvers find.
 
-use rubscope::report::number::{in_tenths, tell_in_rpm, with_speeds};
+use rubscope::sheet::number::{in_tenths, tell_in_rpm, with_speeds};
 use rubscope::tui::command::Command;
 use rubscope::tui::command::table::Group;
 use rubscope::tui::lessons::{self, Lesson, LessonStep};

@@ -2,8 +2,8 @@
 //! view.
 
 use super::model::{App, Source};
-use crate::report::CommandLine;
-use crate::report::number::in_shown_unit;
+use crate::sheet::CommandLine;
+use crate::sheet::number::in_shown_unit;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{DEFAULT, Scene};
 

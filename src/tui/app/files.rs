@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::model::{App, Files, InputMode, Source, Writing};
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 use crate::tui::command::{Effect, Purpose};
 use crate::tui::files::{FileResult, FoundScene, FoundScenes, builtin_scenes};
 use crate::tui::list::draw_list;

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 
 use super::model::App;
-use crate::report::number::{frequency_unit, in_shown_unit, per_frequency};
+use crate::sheet::number::{frequency_unit, in_shown_unit, per_frequency};
 use crate::tui::axis::number;
 use crate::tui::knobs::knob_of;
 use crate::tui::views::id::ViewId;

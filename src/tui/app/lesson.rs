@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::model::{App, InputMode, LessonProgress, Past, Source, StepProgress};
-use crate::report::number::with_speeds;
+use crate::sheet::number::with_speeds;
 use crate::tui::command::Command;
 use crate::tui::knobs::{knob_of, place_of};
 use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};

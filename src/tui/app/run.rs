@@ -3,7 +3,7 @@
 
 use super::model::{App, Baseline, Ranges, Run};
 use super::play::begin_s;
-use crate::report::line::clean;
+use crate::sheet::line::clean;
 use crate::tui::axis::{AutoRange, instant, readable};
 use crate::tui::engine::{Moment, Move, Order, PageRecord, Results, Sensitive, Snapshot};
 use crate::tui::film::{FilmPlan, other_law};

@@ -2,8 +2,8 @@
 //! depth in a lining, and the lock and coincidence speeds.
 
 use super::model::App;
-use crate::report::number::count;
-use crate::report::sentence::{Facts, Sentence};
+use crate::sheet::number::count;
+use crate::sheet::sentence::{Facts, Sentence};
 use crate::tui::axis::readable;
 use crate::tui::engine::{Answer, FORECAST_LIMIT, FullRun, FullRunState};
 use crate::tui::knobs::KNOBS;

@@ -4,7 +4,7 @@
 
 use super::model::App;
 use crate::machine::range_doubt;
-use crate::report::number::with_typed_unit;
+use crate::sheet::number::with_typed_unit;
 use crate::tui::axis::readable;
 use crate::tui::command::chord::Chord;
 use crate::tui::command::table::{self, Binding, Group};

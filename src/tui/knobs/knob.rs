@@ -7,7 +7,7 @@ use strum::VariantArray;
 use super::inert::Inert;
 use super::number::{self, decades, mantissas};
 use super::range::{Bar, Case, KnobRange};
-use crate::report::number::{from_shown, in_shown_unit, rounded, with_typed_unit};
+use crate::sheet::number::{from_shown, in_shown_unit, rounded, with_typed_unit};
 use crate::tui::axis;
 use crate::tui::field::Field;
 use rubscope_solver::model::Machine;

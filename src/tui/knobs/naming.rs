@@ -2,7 +2,7 @@
 
 use super::knob::Knob;
 use super::table::KNOBS;
-use crate::report::number::{exact, rounded};
+use crate::sheet::number::{exact, rounded};
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Marker;
 use crate::tui::theme::Theme;

@@ -5,8 +5,8 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
-use crate::report::number::{in_tenths, per_speed, rounded, short as digits, speed_unit, trimmed};
-use crate::report::sentence::Sentence;
+use crate::sheet::number::{in_tenths, per_speed, rounded, short as digits, speed_unit, trimmed};
+use crate::sheet::sentence::Sentence;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::{number, readable};

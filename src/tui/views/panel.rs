@@ -5,7 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Modifier, Style};
 
-use crate::report::Sheet;
+use crate::sheet::Sheet;
 use crate::tui::app::layout::LEAST_ROWS;
 use crate::tui::app::{App, Cursor, Parts};
 use crate::tui::appearance::Appearance;

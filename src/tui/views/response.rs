@@ -5,9 +5,9 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::chart::{Chart, Curve};
 use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, read_before, title};
-use crate::report::Sheet;
-use crate::report::line::clean;
-use crate::report::table::{Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::line::clean;
+use crate::sheet::table::{Table, TableCell};
 use crate::tui::app::{App, Cursor};
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::{AutoRange, ChartAxis, instant, readable};

@@ -4,8 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 
-use crate::report::symbols::greek;
-use crate::report::table::Table;
+use crate::sheet::symbols::greek;
+use crate::sheet::table::Table;
 use crate::tui::app::App;
 use crate::tui::text::print;
 use crate::tui::theme::Role;

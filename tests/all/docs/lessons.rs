@@ -1,7 +1,7 @@
 //! The lessons on paper: every question, and the answers at the end, made from the lessons
 //! of the program.
 
-use rubscope::report::number::with_speeds;
+use rubscope::sheet::number::with_speeds;
 use rubscope::tui::lessons::{LETTERS, Lesson, LessonStep, all};
 
 /// Longest line of a document.

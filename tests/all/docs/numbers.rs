@@ -230,7 +230,7 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
         let [plain, letter] = [false, true].map(|sensitive| {
             format!(
                 "`{}`",
-                rubscope::report::map::mark(Some(Cell { sensitive, ..Cell::of(verdict) }))
+                rubscope::sheet::map::mark(Some(Cell { sensitive, ..Cell::of(verdict) }))
             )
         });
         let row = [word.to_string(), format!("{plain} {letter}")];
@@ -240,7 +240,7 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     let map = ["map", "--solver", "event", "--speed", "500:500:1", "--pulse", "2e5:2e5:1"];
     let printed = text(&map);
     let letters = Verdict::ALL.map(|verdict| {
-        rubscope::report::map::mark(Some(Cell { sensitive: true, ..Cell::of(verdict) }))
+        rubscope::sheet::map::mark(Some(Cell { sensitive: true, ..Cell::of(verdict) }))
     });
     let told = format!("A letter ({}) marks", letters.map(String::from).join(" "));
     assert!(printed.contains(&told), "{printed}");

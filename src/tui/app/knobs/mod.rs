@@ -6,8 +6,8 @@ pub mod panel;
 pub mod strip;
 
 use super::model::{App, Knobs, LessonProgress, Past};
-use crate::report::line::clean;
-use crate::report::number::rounded;
+use crate::sheet::line::clean;
+use crate::sheet::number::rounded;
 use crate::tui::engine::Move;
 use crate::tui::knobs::{KNOBS, Knob};
 use rubscope_solver::motion::Change;

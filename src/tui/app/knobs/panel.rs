@@ -7,7 +7,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Modifier, Style};
 use strum::VariantArray;
 
-use crate::report::line::capital;
+use crate::sheet::line::capital;
 use crate::tui::app::model::{App, InputMode};
 use crate::tui::command::Command;
 use crate::tui::knobs::{Group, KNOBS, Knob};

@@ -6,7 +6,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::panel::{draw as draw_bar, parts, style};
-use crate::report::number::rounded;
+use crate::sheet::number::rounded;
 use crate::tui::app::model::App;
 use crate::tui::axis::number;
 use crate::tui::command::Command;

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::report::Sheet;
+use crate::sheet::Sheet;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant, readable};
 use crate::tui::film::{in_blade_frame, rim_point};

@@ -3,8 +3,8 @@
 
 use ratatui::buffer::Buffer;
 
-use crate::report::Sheet;
-use crate::report::table::Table;
+use crate::sheet::Sheet;
+use crate::sheet::table::Table;
 use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant};

@@ -10,9 +10,9 @@ mod words;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, not_yet, title};
-use crate::report::Sheet;
-use crate::report::map::sheet;
-use crate::report::table::WIDTH;
+use crate::sheet::Sheet;
+use crate::sheet::map::sheet;
+use crate::sheet::table::WIDTH;
 use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;

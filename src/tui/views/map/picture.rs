@@ -6,7 +6,7 @@ use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::super::panel::ViewArea;
 use super::plan::LiveMap;
-use crate::report::map::mark;
+use crate::sheet::map::mark;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
 use crate::tui::axis::ChartAxis;

@@ -4,8 +4,8 @@ use ratatui::style::Style;
 
 use super::picture::{is_inside, present, sign, unit};
 use super::plan::{CellRun, LiveMap};
-use crate::report::map::means;
-use crate::report::number::{count, from_shown, in_shown_unit, per_speed, rounded};
+use crate::sheet::map::means;
+use crate::sheet::number::{count, from_shown, in_shown_unit, per_speed, rounded};
 use crate::tui::app::App;
 use crate::tui::axis::{number, readable};
 use crate::tui::knobs::{Knob, knob_of};

@@ -4,10 +4,10 @@
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use crate::report::margins::robust::{smallest_lobes, tip_deviation};
-use crate::report::margins::words::from_here;
-use crate::report::number::{count, rounded};
-use crate::report::table::{Heading, Table, TableCell};
+use crate::sheet::margins::robust::{smallest_lobes, tip_deviation};
+use crate::sheet::margins::words::from_here;
+use crate::sheet::number::{count, rounded};
+use crate::sheet::table::{Heading, Table, TableCell};
 use crate::tui::app::App;
 use crate::tui::axis::number;
 use crate::tui::command::Command;

@@ -9,9 +9,9 @@ mod survey;
 use ratatui::{buffer::Buffer, layout::Rect};
 
 use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
-use crate::report::number::{rounded, speed_unit};
-use crate::report::survey::sheet;
-use crate::report::{Sheet, margins};
+use crate::sheet::number::{rounded, speed_unit};
+use crate::sheet::survey::sheet;
+use crate::sheet::{Sheet, margins};
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::number;
 use crate::tui::command::Command;

@@ -3,8 +3,8 @@
 
 use ratatui::style::Style;
 
-use crate::report::margins::{STRONGEST, words};
-use crate::report::number::with_unit;
+use crate::sheet::margins::{STRONGEST, words};
+use crate::sheet::number::with_unit;
 use crate::tui::app::App;
 use crate::tui::command::Command;
 use crate::tui::knobs::{KNOBS, knob_of, place_of};

@@ -4,8 +4,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use crate::report::number::speed_unit;
-use crate::report::survey::{answer, notes, rows as rows_of};
+use crate::sheet::number::speed_unit;
+use crate::sheet::survey::{answer, notes, rows as rows_of};
 use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;

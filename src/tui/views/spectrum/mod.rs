@@ -5,9 +5,9 @@ pub mod lines;
 
 use ratatui::buffer::Buffer;
 
-use crate::report::Sheet;
-use crate::report::number::{frequency_unit, per_frequency, speed_unit};
-use crate::report::table::{Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::number::{frequency_unit, per_frequency, speed_unit};
+use crate::sheet::table::{Table, TableCell};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable, round_out};
 use crate::tui::theme::Role;

@@ -6,9 +6,9 @@ use ratatui::buffer::Buffer;
 
 use super::SpeedChart;
 use super::coincidence_curves::{CoincidenceCurves, points};
-use crate::report::Sheet;
-use crate::report::hbm::coincidence::add_points;
-use crate::report::number::{frequency_unit, per_frequency, per_speed, speed_unit};
+use crate::sheet::Sheet;
+use crate::sheet::hbm::coincidence::add_points;
+use crate::sheet::number::{frequency_unit, per_frequency, per_speed, speed_unit};
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::text::print;

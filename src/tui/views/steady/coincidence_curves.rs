@@ -3,8 +3,8 @@
 //! lining, where each point is a search.
 
 use super::speeds::Speeds;
-use crate::report::hbm::coincidence::add_points;
-use crate::report::ticks::linspace;
+use crate::sheet::hbm::coincidence::add_points;
+use crate::sheet::ticks::linspace;
 use crate::tui::axis::nice_step;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};

@@ -7,9 +7,9 @@ use ratatui::layout::{Constraint, Layout};
 
 use super::locked_curves::LockedCurves;
 use super::{NAMED_FROM, SpeedChart, present};
-use crate::report::Sheet;
-use crate::report::hbm::locked::add_points;
-use crate::report::number::speed_unit;
+use crate::sheet::Sheet;
+use crate::sheet::hbm::locked::add_points;
+use crate::sheet::number::speed_unit;
 use crate::tui::app::layout::LEAST_ROWS;
 use crate::tui::app::reading::STEP;
 use crate::tui::app::{App, Cursor};

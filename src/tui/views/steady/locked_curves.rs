@@ -2,7 +2,7 @@
 //! with and without damping, and, with radial coupling, the multiplier of the stable whirl.
 
 use super::speeds::Speeds;
-use crate::report::hbm::locked::add_points;
+use crate::sheet::hbm::locked::add_points;
 use crate::tui::axis::nice_step;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::harmonic::{Form, RoundWhirl, SpeedRanges, Sweep, locked_motion};

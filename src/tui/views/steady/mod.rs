@@ -10,7 +10,7 @@ pub mod speeds;
 use ratatui::buffer::Buffer;
 use ratatui::style::Style;
 
-use crate::report::number::speed_unit;
+use crate::sheet::number::speed_unit;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::ChartAxis;
 use crate::tui::text::whole_parts;

@@ -1,6 +1,6 @@
 //! The speeds that a view shows, with the curves over them.
 
-use crate::report::{CommandLine, Sheet};
+use crate::sheet::{CommandLine, Sheet};
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::Panel;

@@ -1,9 +1,9 @@
 //! The locked motion, which is shown without the option of a view.
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::number::speed;
-use crate::report::table::{Column, Table};
+use crate::sheet::Sheet;
+use crate::sheet::number::speed;
+use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{Form, HarmonicError, LockedPoint, Sweep};
 
 /// The default view: the locked motion.

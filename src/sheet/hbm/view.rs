@@ -1,9 +1,9 @@
 //! A view of the steady states, and what all views begin with: the machine, its limits, and the
 //! assumptions behind the numbers.
 
-use crate::report::line::capital;
-use crate::report::number::{count, rounded, short, span, speed};
-use crate::report::{CommandLine, Sheet};
+use crate::sheet::line::capital;
+use crate::sheet::number::{count, rounded, short, span, speed};
+use crate::sheet::{CommandLine, Sheet};
 use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Locked, lock_window};
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{ModelSize, Scene, keys};

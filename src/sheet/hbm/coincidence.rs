@@ -2,9 +2,9 @@
 //! against speed.
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::number::{per_speed, short, speed, speed_unit};
-use crate::report::table::{Column, Table};
+use crate::sheet::Sheet;
+use crate::sheet::number::{per_speed, short, speed, speed_unit};
+use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{
     CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
 };

@@ -2,9 +2,9 @@
 //! waves that grow from it; with a clearance, locks, whirl, and the linings that hold a lock.
 
 use super::view::{Request, View, ViewContact, speeds_of};
-use crate::report::Sheet;
-use crate::report::number::{short, speed};
-use crate::report::table::{Column, Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::number::{short, speed};
+use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Cycle, HarmonicError, HopfPoint, Lining, LiningState, Rest, growth_threshold,
     least_lock_stiffness, lock_window, shifted_coincidence,

@@ -103,7 +103,7 @@ pub fn describe(origin: &Provenance) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::CommandLine;
+    use crate::sheet::CommandLine;
     use rubscope_solver::motion::Verdict;
     use rubscope_solver::scene::Scene;
     use rubscope_solver::study::figures::{Mark, Panel, Quantity, Series, Style};

@@ -2,9 +2,9 @@
 //! lining.
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::number::count;
-use crate::report::table::{Column, Table};
+use crate::sheet::Sheet;
+use crate::sheet::number::count;
+use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
 use rubscope_solver::scene::{ContactLaw, keys};
 

@@ -4,10 +4,10 @@
 use nalgebra::Complex;
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::number::speed;
-use crate::report::table::{Column, Table, TableCell};
-use crate::report::ticks::linspace;
+use crate::sheet::Sheet;
+use crate::sheet::number::speed;
+use crate::sheet::table::{Column, Table, TableCell};
+use crate::sheet::ticks::linspace;
 use rubscope_solver::harmonic::{HarmonicError, RoundWhirl, RoundWhirlLoads, round_whirls};
 use rubscope_solver::model::Frame;
 use rubscope_solver::scene::keys;

@@ -1,8 +1,8 @@
 //! How far a run is from another verdict: one sentence, and a table with a row per quantity.
 
 use super::words::from_here;
-use crate::report::number::{count, micro, rounded, scaled, short, with_unit};
-use crate::report::table::{Heading, Table, TableCell};
+use crate::sheet::number::{count, micro, rounded, scaled, short, with_unit};
+use crate::sheet::table::{Heading, Table, TableCell};
 use rubscope_solver::scene::ContactLaw;
 use rubscope_solver::study::margins::{
     ChangedVerdict, Limit, LimitName, Margins, Robustness, VerdictChange, parameter,

@@ -1,9 +1,9 @@
 //! The view `--excitation`: response of the damped lock to the engine order of the scene.
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::number::short;
-use crate::report::table::{Column, Table};
+use crate::sheet::Sheet;
+use crate::sheet::number::short;
+use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
 use rubscope_solver::scene::keys;
 

@@ -10,7 +10,7 @@ use rubscope_solver::scene::Quantity;
 /// Formats a number with at most six significant digits.
 ///
 /// ```
-/// use rubscope::report::number::short;
+/// use rubscope::sheet::number::short;
 /// assert_eq!(short(-244.416_23), "-244.416");
 /// assert_eq!(short(1.010_283_04e-4), "1.01028e-4");
 /// assert_eq!(short(500.0), "500");

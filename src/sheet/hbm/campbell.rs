@@ -1,8 +1,8 @@
 //! The view `--campbell`: frequencies against speed, engine orders, and the coincidences (30).
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::table::{Column, Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
 pub const CAMPBELL: View = View {

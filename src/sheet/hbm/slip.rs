@@ -1,9 +1,9 @@
 //! The view `--slip`: lasting slip, and the speeds at which it exists.
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::number::speed;
-use crate::report::table::{Column, Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::number::speed;
+use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
 };

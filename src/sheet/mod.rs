@@ -1,8 +1,9 @@
-//! Reports: one file per format. A report formats the result of a computation and writes it; it
-//! computes nothing itself.
+//! Sheets: what a command answers, as sentences, facts, tables and charts, and its writers: text,
+//! CSV, JSON and SVG. A sheet tells the result of a computation; it computes nothing itself.
 
 pub mod check;
 pub mod command;
+mod contents;
 pub mod figure;
 pub mod hbm;
 pub mod history;
@@ -13,7 +14,6 @@ pub mod number;
 pub mod part;
 pub mod precision;
 pub mod sentence;
-mod sheet;
 pub mod summary;
 pub mod survey;
 pub mod svg;
@@ -22,8 +22,8 @@ pub mod table;
 pub mod ticks;
 
 pub use command::{CommandLine, Provenance};
+pub use contents::Sheet;
 pub use history::History;
-pub use sheet::Sheet;
 
 /// Wall times of a run and of its sensitivity check.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,8 +2,8 @@
 //! series.
 
 use super::paper::{LEFT, LINE, Place, circle, colour, line, rectangle, strokes, text, width_of};
-use crate::report::number::short;
-use crate::report::ticks::{log_ticks, power_of_ten, scientific, ticks};
+use crate::sheet::number::short;
+use crate::sheet::ticks::{log_ticks, power_of_ten, scientific, ticks};
 use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
 
 /// Height of a panel's title \[px\].

@@ -1,8 +1,8 @@
 //! The view `--branches`: every equilibrium, its stability, and the speeds where branches change.
 
 use super::view::{Request, View, ViewContact};
-use crate::report::Sheet;
-use crate::report::table::{Column, Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Branches, Corner, Equilibrium, Form, HarmonicError, Kind, Locked, LockedPoint, Threshold,
 };

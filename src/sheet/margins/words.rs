@@ -1,9 +1,9 @@
 //! Wording of margins shared by text and picture.
 
-use crate::report::CommandLine;
-use crate::report::line::capital;
-use crate::report::number::{rounded, short, with_unit};
-use crate::report::table::TableCell;
+use crate::sheet::CommandLine;
+use crate::sheet::line::capital;
+use crate::sheet::number::{rounded, short, with_unit};
+use crate::sheet::table::TableCell;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
 

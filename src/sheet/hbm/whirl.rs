@@ -2,9 +2,9 @@
 //! at which a lock begins to flutter.
 
 use super::view::{Request, View, ViewContact, speeds_of};
-use crate::report::Sheet;
-use crate::report::line::listed;
-use crate::report::table::{Column, Table, TableCell};
+use crate::sheet::Sheet;
+use crate::sheet::line::listed;
+use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     HarmonicError, RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
 };
