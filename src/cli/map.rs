@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::options::{SceneOptions, Swept, note_adjusted};
 use super::output::OutputOptions;
-use super::range::Range;
+use super::range::{Range, whole};
 use super::sign;
 use super::status::{self, Done, Refusal, Status};
 use crate::sheet::map as report;
@@ -19,7 +19,7 @@ use rubscope_solver::scene::keys;
 use rubscope_solver::study::{Axis, AxisError, Map, MapPlan};
 
 /// Upper bound of `--threads`, above the number of cores of usual machines.
-const MOST_THREADS: usize = 1024;
+const MOST_THREADS: u32 = 1024;
 /// Largest number of cells in a picture; each takes about a hundred bytes of SVG.
 const MOST_DRAWN: usize = 1_000_000;
 /// Default number of columns and rows: steps of 10 rad/s (or 100 rpm) and 50 kN.
@@ -52,8 +52,8 @@ pub struct MapCommand {
     #[arg(long)]
     no_sensitivity: bool,
     /// Number of threads [default: every core]
-    #[arg(long, value_name = "COUNT", value_parser = threads)]
-    threads: Option<usize>,
+    #[arg(long, value_name = "COUNT", value_parser = whole::<1, MOST_THREADS>)]
+    threads: Option<u32>,
     /// Compute only share K of COUNT, counted from 1, for map merge; needs --out FILE.csv
     #[arg(long, value_name = "K/COUNT", requires = "out")]
     shard: Option<String>,
@@ -74,11 +74,6 @@ struct Merge {
     files: Vec<PathBuf>,
     #[command(flatten)]
     output: OutputOptions,
-}
-
-fn threads(text: &str) -> Result<usize, String> {
-    let count = text.parse().ok().filter(|count| (1..=MOST_THREADS).contains(count));
-    count.ok_or_else(|| format!("allowed is a whole number from 1 to {MOST_THREADS}"))
 }
 
 impl MapCommand {
@@ -135,19 +130,16 @@ impl MapCommand {
 
     fn shard(&self) -> Result<Option<Shard>, Refusal> {
         let Some(text) = &self.shard else { return Ok(None) };
-        Shard::parse(text)
-            .map(Some)
-            .ok_or_else(|| Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT"))
+        let shard = Shard::parse(text).map(Some);
+        shard.ok_or_else(|| Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT"))
     }
 
     fn compute(&self, map: &mut Map, shard: Option<Shard>) -> anyhow::Result<()> {
-        let mut builder = rayon::ThreadPoolBuilder::new();
-        if let Some(threads) = self.threads {
-            builder = builder.num_threads(threads);
-        }
-        let cells = map.cells.len();
+        // Without a number, 0: every core.
+        let threads = self.threads.unwrap_or(0) as usize;
+        let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let whole = Shard { number: 1, count: 1 };
-        let indices = shard.unwrap_or(whole).indices(cells);
+        let indices = shard.unwrap_or(whole).indices(map.cells.len());
         let form = "{spinner} {bar:30} {pos}/{len} cells, {per_sec}, {eta} left";
         let bar = sign::bar(indices.len() as u64, form);
         let count = |_, _| bar.inc(1);

@@ -168,6 +168,12 @@ impl SceneOptions {
     }
 
     fn apply(&self, mut scene: Scene, swept: Swept) -> anyhow::Result<Resolved> {
+        // What the scene is refused for also without the options has the name of its file.
+        let own = scene.checked().and_then(|scene| scene.slides()).err();
+        let in_file = |error: SceneError| match self.name() {
+            Some(file) if own.as_ref() == Some(&error) => error.in_file(file),
+            _ => error,
+        };
         tell_in_rpm(self.rpm);
         let (mut speeds, mut pulses) = (None, None);
         for (option, key, text) in self.named() {
@@ -208,12 +214,12 @@ impl SceneOptions {
             if let Some(range) = range {
                 let mut last = scene.clone();
                 last.set(key, &range.to.to_string())?;
-                last.checked()?;
+                last.checked().map_err(in_file)?;
             }
         }
-        let scene = scene.checked()?;
+        let scene = scene.checked().map_err(in_file)?;
         if !swept.speed {
-            scene.slides()?;
+            scene.slides().map_err(in_file)?;
         }
         note_adjusted(&made);
         Ok(Resolved { scene, speeds, pulses })

@@ -21,7 +21,7 @@ pub struct PrecisionCommand {
     output: OutputOptions,
     /// Number of runs for the median time
     #[arg(long, value_name = "COUNT", default_value_t = 5,
-          value_parser = clap::value_parser!(u32).range(1..=1000))]
+          value_parser = super::range::whole::<1, 1000>)]
     repeat: u32,
     #[arg(help = "Smallest time step tried [s]")]
     #[arg(long, value_name = "SECONDS", default_value_t = 1e-8)]

@@ -1,4 +1,4 @@
-//! `FROM:TO:COUNT`, a range of values that a command sweeps.
+//! `FROM:TO:COUNT`, a range of values that a command sweeps; and whole numbers in a range.
 
 use super::status::Refusal;
 use crate::sheet::ticks::linspace;
@@ -45,6 +45,15 @@ impl Range {
     pub fn values(&self) -> Vec<f64> {
         linspace(self.from, self.to, self.count)
     }
+}
+
+/// Parses a whole number in a range.
+///
+/// # Errors
+/// States the range.
+pub fn whole<const LEAST: u32, const MOST: u32>(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok().filter(|count| (LEAST..=MOST).contains(count));
+    count.ok_or_else(|| format!("allowed is a whole number from {LEAST} to {MOST}"))
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ pub struct RunCommand {
     output: OutputOptions,
     /// Number of samples in the history
     #[arg(long, value_name = "COUNT", default_value_t = 2000, requires = "out",
-          value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+          value_parser = super::range::whole::<2, 1_000_000>)]
     samples: u32,
     /// Add the gap of every blade to the history
     #[arg(long, requires = "out")]

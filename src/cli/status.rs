@@ -105,10 +105,9 @@ pub fn say_noted() {
 /// command line in one line. Returns the exit status.
 pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
     match error.kind() {
-        Usage::DisplayHelp | Usage::DisplayVersion => match error.print() {
-            Ok(()) => 0,
-            Err(failure) => exit(Err(failure.into())),
-        },
+        Usage::DisplayHelp | Usage::DisplayVersion => {
+            exit(error.print().map(|()| Status::Done).map_err(Into::into))
+        }
         _ => {
             let line = file(error, arguments).unwrap_or_else(|| in_one_line(&error.to_string()));
             say(&format!("rubscope: {line}"));
@@ -121,11 +120,9 @@ pub fn usage(error: &clap::Error, arguments: &[OsString]) -> u8 {
 /// name of a file that begins with `-`; otherwise `None`.
 fn file(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     let is_file = |name: &&str| {
-        let ending = std::path::Path::new(name).extension();
-        name.starts_with('-')
-            && ending.is_some()
-            && !name.contains('=')
-            && name.parse::<f64>().is_err()
+        let has_ending = std::path::Path::new(name).extension().is_some();
+        let is_value = name.contains('=') || name.parse::<f64>().is_ok();
+        name.starts_with('-') && has_ending && !is_value
     };
     let name = arguments.iter().filter_map(|name| name.to_str()).find(is_file);
     let name = name.filter(|_| error.kind() == Usage::UnknownArgument)?;

@@ -187,8 +187,14 @@ impl<'a> Sheet<'a> {
         match &self.picture {
             Picture::Figure(figure) => svg::write(&figure(), &origin, out),
             Picture::Charts(charts) if !charts.is_empty() => {
-                let figure = Figure::new(origin.scene.title.clone(), "", self.panels());
-                svg::write(&figure, &origin, out)
+                let panels = self.panels();
+                // Where a curve is missing, the title of the table says why.
+                let why = self.parts.iter().rev().find_map(|part| match part {
+                    Part::Table { title, .. } if panels.iter().any(Panel::is_bare) => title.clone(),
+                    _ => None,
+                });
+                let title = origin.scene.title.clone();
+                svg::write(&Figure::new(title, why.unwrap_or_default(), panels), &origin, out)
             }
             Picture::Charts(_) => {
                 let mut text = Vec::new();

@@ -29,11 +29,9 @@ pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
         return (Vec::new(), step);
     }
     let count = (last - first).max(-1.0) as i64;
-    let values = (0..=count)
-        .map(|k| (first + k as f64) * step)
-        .map(|x| if x == 0.0 { 0.0 } else { x })
-        .collect();
-    (values, step)
+    // Adding zero makes a 0 of -0.
+    let value = |k: i64| (first + k as f64) * step + 0.0;
+    ((0..=count).map(value).collect(), step)
 }
 
 /// Returns ticks of a logarithmic axis between the exponents `low` and `high`, as exponents of ten:
@@ -85,18 +83,13 @@ const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷',
 /// `count` is 1.
 pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1);
-    (0..count)
-        .map(|n| {
-            if n == 0 {
-                from
-            } else if n == last {
-                to
-            } else {
-                let part = n as f64 / last as f64;
-                from * (1.0 - part) + to * part
-            }
-        })
-        .collect()
+    let between = |part: f64| from * (1.0 - part) + to * part;
+    let value = |n: usize| match n {
+        0 => from,
+        n if n == last => to,
+        n => between(n as f64 / last as f64),
+    };
+    (0..count).map(value).collect()
 }
 
 #[cfg(test)]

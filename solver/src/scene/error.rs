@@ -79,6 +79,11 @@ impl SceneError {
     ) -> Self {
         Self::Refused { key: key.into(), value: value.to_string(), allowed: allowed.into() }
     }
+
+    /// Adds the path of the file that is refused.
+    pub fn in_file(self, path: &str) -> Self {
+        Self::InFile { path: path.to_string(), error: Box::new(self) }
+    }
 }
 
 /// Rejects the value of a key if `is_wrong`.

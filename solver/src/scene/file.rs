@@ -22,10 +22,7 @@ impl Scene {
     /// The scene or file does not exist, or its content is not allowed.
     pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
         let scene = Self::load_unchecked(name_or_path)?;
-        scene.checked().map_err(|error| match builtin_text(name_or_path) {
-            Some(_) => error,
-            None => in_file(name_or_path, error),
-        })?;
+        scene.checked().map_err(|error| error.in_file(name_or_path))?;
         Ok(scene)
     }
 
@@ -35,8 +32,8 @@ impl Scene {
     /// # Errors
     /// The scene or file does not exist, or a key in it is not allowed.
     pub fn load_unchecked(name_or_path: &str) -> Result<Self, SceneError> {
-        if let Some(text) = builtin_text(name_or_path) {
-            return Self::from_toml_unchecked(text);
+        if let Some(scene) = BUILTIN.iter().find(|scene| scene.name == name_or_path) {
+            return Self::from_toml_unchecked(scene.toml);
         }
         let path = Path::new(name_or_path);
         let is_toml = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
@@ -45,7 +42,7 @@ impl Scene {
         }
         let refused = |reason: String| SceneError::File { path: name_or_path.to_string(), reason };
         let text = read_text(path, LARGEST_FILE).map_err(|error| refused(error.to_string()))?;
-        Self::from_toml_unchecked(&text).map_err(|error| in_file(name_or_path, error))
+        Self::from_toml_unchecked(&text).map_err(|error| error.in_file(name_or_path))
     }
 
     /// Reads the text of a scene file and checks it completely.
@@ -143,14 +140,6 @@ pub fn read_bytes(path: &Path, most: u64) -> std::io::Result<Vec<u8>> {
         return Err(Error::new(ErrorKind::FileTooLarge, reason));
     }
     Ok(bytes)
-}
-
-fn builtin_text(name: &str) -> Option<&'static str> {
-    BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml)
-}
-
-fn in_file(path: &str, error: SceneError) -> SceneError {
-    SceneError::InFile { path: path.to_string(), error: Box::new(error) }
 }
 
 fn as_toml(value: &Value) -> Toml {

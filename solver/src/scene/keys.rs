@@ -544,6 +544,6 @@ keys! {
     END "solver.end_s" = real(Aside, "s", "end of the simulation", true 0.0..1e6, solver.end_s),
         "run end" Decades(1e-9) "end of the run; the verdict describes its last tenth";
     VIEW_CHARTS "view.charts" = charts(Aside, "charts the explorer opens with", view.charts);
-    VIEW_BEGIN "view.begin_s" = real(Aside, "s", "time at which the explorer starts to play, at most solver.end_s", false 0.0..1e6, view.begin_s);
+    VIEW_BEGIN "view.begin_s" = real(Aside, "s", "time at which the explorer starts to play, or solver.end_s if earlier", false 0.0..1e6, view.begin_s);
     VIEW_SPEEDS "view.speeds" = text(Aside, "speeds of the machine, such as 7000rpm:12000rpm, for the survey; empty for all", 60, view.speeds);
 }

@@ -31,16 +31,19 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
 }
 
 fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
-    let changes: Vec<String> = limits
-        .iter()
-        .map(|limit| {
-            let change = if limit.appears { "appears" } else { "vanishes" };
-            format!("{change} at {}", speed(limit.speed_rad_s))
-        })
-        .collect();
+    let change = |limit: &SlipLimit| {
+        let change = if limit.appears { "appears" } else { "vanishes" };
+        format!("{change} at {}", speed(limit.speed_rad_s))
+    };
+    let changes: Vec<String> = limits.iter().map(change).collect();
     let found = points.iter().filter(|point| point.exists()).count();
+    let mut reasons: Vec<&str> =
+        points.iter().filter_map(|point| point.outcome.err()).map(Into::into).collect();
+    reasons.dedup();
+    let exists = format!("Slip exists at {found} of {} speeds", points.len());
     match changes.is_empty() {
-        true => format!("Slip exists at {found} of {} speeds.", points.len()),
+        true if found == 0 => format!("{exists}: {}.", reasons.join(", ")),
+        true => format!("{exists}."),
         false => format!("Slip {}.", changes.join(", ")),
     }
 }

@@ -32,7 +32,6 @@ pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Resul
     let across = width / columns as f64;
     let letters = letters_in(width - 2.0 * LEFT);
     let lines_of = |text: &String| wrapped(text, letters);
-    let caption: Vec<String> = figure.caption.iter().flat_map(lines_of).collect();
     let mut svg = text(&figure.title, [LEFT, 25.0], "font-size=\"17\"");
     let mut down = HEAD;
     for line in lines_of(&figure.note) {
@@ -46,8 +45,8 @@ pub fn write(figure: &Figure, origin: &Provenance, out: &mut dyn Write) -> Resul
         }
         down += PANEL;
     }
-    for line in &caption {
-        svg += &text(line, [LEFT, down + 13.0], "");
+    for line in figure.caption.iter().flat_map(lines_of) {
+        svg += &text(&line, [LEFT, down + 13.0], "");
         down += LINE;
     }
     // Keys of the command have underscores, which are no subscripts.
@@ -149,7 +148,7 @@ mod tests {
             panel::draw(&panel, [WIDTH, PANEL])
         };
         let lines = |text: &str| text.matches("<polyline").count();
-        let none = lines(&draw(&[]));
+        let none = lines(&draw(&[Style::Dots]));
         let disc = draw(&[Style::Discs(0, 5)]);
         assert_eq!((lines(&disc) - none, disc.matches("<circle").count()), (0, 4));
         // Three points and the legend, one square each.

@@ -40,18 +40,18 @@ pub fn draw(panel: &Panel, [width, height]: Place) -> String {
     let x = Scale::of(panel, &panel.x, |point| point.0, margin(columns, 0.0), [LABELS, right]);
     let y = Scale::of(panel, &panel.y, |point| point.1, margin(rows, 0.05), [bottom, top]);
     let grid = "stroke-opacity=\"0.15\"";
-    for (at, label) in x.ticks() {
+    for (at, label) in x.ticks().into_iter().filter(|_| ranging(panel).next().is_some()) {
         svg += &line(&[[at, top], [at, bottom]], "black", 1.0, grid);
         svg += &text(&label, [at, bottom + 17.0], "text-anchor=\"middle\"");
     }
-    for (at, label) in y.ticks() {
+    for (at, label) in y.ticks().into_iter().filter(|_| !panel.is_bare()) {
         svg += &line(&[[LABELS, at], [right, at]], "black", 1.0, grid);
         svg += &text(&label, [LABELS - 8.0, at + 4.0], "text-anchor=\"end\"");
     }
     svg += &line(&[[LABELS, top], [LABELS, bottom], [right, bottom]], "black", 1.0, "");
-    if ranging(panel).next().is_none() {
+    if panel.is_bare() {
         let middle = [0.5 * (LABELS + right), 0.5 * (top + bottom)];
-        svg += &text("no curve: nothing in this range", middle, "text-anchor=\"middle\"");
+        svg += &text("no curve here", middle, "text-anchor=\"middle\"");
     }
     let middle = [0.5 * (LABELS + right), bottom + 38.0];
     svg += &text(&panel.x.label, middle, "text-anchor=\"middle\"");
@@ -225,7 +225,8 @@ impl<'a> Scale<'a> {
         from + (at - self.low) / (self.high - self.low) * (to - from)
     }
 
-    /// Returns the places of the ticks with their labels: as many as stand apart.
+    /// Returns the places of the ticks with their labels: as many as stand apart and differ, or the
+    /// middle, where a constant is.
     fn ticks(&self) -> Vec<(f64, String)> {
         let ticks = |most| match self.quantity.log {
             true => log_ticks(self.low, self.high, most),
@@ -236,9 +237,12 @@ impl<'a> Scale<'a> {
         let size = |label: &str| if self.ends[0] < self.ends[1] { width_of(label) } else { 0.0 };
         let stand_apart = |labels: &Vec<(f64, String)>| {
             let widest = labels.iter().map(|(_, label)| size(label)).fold(0.0, f64::max);
-            labels.windows(2).all(|pair| (pair[1].0 - pair[0].0).abs() >= widest + TICKS_APART)
+            let apart = |a: f64, b: f64| (b - a).abs() >= widest + TICKS_APART;
+            let mut pairs = labels.windows(2);
+            !labels.is_empty() && pairs.all(|two| two[0].1 != two[1].1 && apart(two[0].0, two[1].0))
         };
-        (1..=MOST_TICKS).rev().map(labels).find(stand_apart).unwrap_or_default()
+        let middle = || vec![label(0.5 * (self.low + self.high))];
+        (1..=MOST_TICKS).rev().map(labels).find(stand_apart).unwrap_or_else(middle)
     }
 
     fn label(&self, tick: f64) -> String {

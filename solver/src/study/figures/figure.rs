@@ -151,6 +151,12 @@ impl Panel {
         Self { title: title.to_string(), x, y, series, marks: Vec::new() }
     }
 
+    /// Returns whether no series has a value.
+    #[must_use]
+    pub fn is_bare(&self) -> bool {
+        !self.series.iter().flat_map(|series| &series.points).any(|point| point.1.is_finite())
+    }
+
     /// Returns whether all series are curves over the same values of x.
     #[must_use]
     pub fn shares_x(&self) -> bool {
