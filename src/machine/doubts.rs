@@ -305,7 +305,7 @@ fn damping_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String>
 /// Asks about modal masses that are all the 1 to which FE programs scale mode shapes.
 fn scaled_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
     let is_scaled = |mass: &&f64| modes.iter().all(|mode| (mode.mass / *mass - 1.0).abs() < 1e-9);
-    let mass = SCALED_MASSES.iter().find(is_scaled).filter(|_| modes.len() > 1)?;
+    let mass = SCALED_MASSES.iter().find(is_scaled)?;
     Some(format!(
         "Every modal mass of the {} is exactly {mass} kg, to which FE programs scale mode shapes. rubscope needs 1/phi^2, where phi is the amplitude of such a shape at {}.",
         structure.name, structure.amplitude
