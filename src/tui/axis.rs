@@ -20,6 +20,8 @@ pub struct ChartAxis {
     unit: Option<&'static str>,
     /// Whether the values are speeds, with ticks that are round in the shown unit.
     speeds: bool,
+    /// Whether only whole numbers have ticks.
+    whole: bool,
 }
 
 impl ChartAxis {
@@ -38,7 +40,13 @@ impl ChartAxis {
 
     /// Creates an axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
-        Self { low, high, scale: SiScale::plain(), powers: false, unit: None, speeds: false }
+        let scale = SiScale::plain();
+        Self { low, high, scale, powers: false, unit: None, speeds: false, whole: false }
+    }
+
+    /// Creates an axis of whole numbers.
+    pub fn whole(low: f64, high: f64) -> Self {
+        Self { whole: true, ..Self::plain(low, high) }
     }
 
     /// Creates an axis of speeds \[rad/s\], in the unit the user chose.
@@ -60,18 +68,15 @@ impl ChartAxis {
     }
 
     /// Returns the round values on the axis, at most `most + 1`, and their spacing; on a
-    /// logarithmic axis, whole exponents.
+    /// logarithmic axis and one of whole numbers, only whole values.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         let unit = if self.speeds { self.scale.factor } else { 1.0 };
-        if unit != 1.0 {
-            let (values, step) = ticks(self.low / unit, self.high / unit, most);
-            return (values.into_iter().map(|value| value * unit).collect(), step * unit);
+        let (mut values, step) = ticks(self.low / unit, self.high / unit, most);
+        values.iter_mut().for_each(|value| *value *= unit);
+        if !self.powers && !self.whole {
+            return (values, step * unit);
         }
-        let (values, step) = ticks(self.low, self.high, most);
-        if !self.powers {
-            return (values, step);
-        }
-        (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), 1.0)
+        (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), step.max(1.0))
     }
 
     /// Returns the label of a tick at `value`; ticks are `step` apart.

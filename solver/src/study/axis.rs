@@ -148,25 +148,22 @@ impl Axis {
         Self::new(path, from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
     }
 
+    /// Returns whether the key is whole-numbered.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        keys::find_varied(&self.path).is_ok_and(|key| matches!(key.allowed, Allowed::Whole { .. }))
+    }
+
     /// Returns value number `index`, from 0. Both ends are exact; values of a whole-numbered key
     /// are rounded.
     #[must_use]
     pub fn value(&self, index: u32) -> f64 {
-        let key = keys::find_varied(&self.path);
-        if key.is_ok_and(|key| matches!(key.allowed, Allowed::Whole { .. })) {
-            return self.value_between(index).round();
-        }
-        self.value_between(index)
-    }
-
-    fn value_between(&self, index: u32) -> f64 {
-        if index == 0 {
-            return self.from;
-        }
-        if index + 1 >= self.count {
-            return self.to;
-        }
-        self.value_at(f64::from(index))
+        let value = match index {
+            0 => self.from,
+            _ if index + 1 >= self.count => self.to,
+            _ => self.value_at(f64::from(index)),
+        };
+        if self.is_whole() { value.round() } else { value }
     }
 
     /// Returns the value at a position between 0 (first) and `count - 1` (last).
@@ -176,8 +173,11 @@ impl Axis {
         if self.log {
             self.from * (self.to / self.from).powf(place / span)
         } else {
-            // This order of operations gives round values for a round step.
-            self.from + (self.to - self.from) * place / span
+            // This order of operations gives round values for a round step, except that the zero
+            // between ends of opposite sign has the round-off of the range.
+            let range = self.to - self.from;
+            let value = self.from + range * place / span;
+            if value.abs() > 4.0 * f64::EPSILON * range.abs() { value } else { 0.0 }
         }
     }
 
@@ -240,6 +240,8 @@ mod tests {
             assert!((value / expected - 1.0).abs() < 1e-12);
         }
         assert_eq!(Axis::parse("operation.speed_rad_s=7:9:1").unwrap().values(), [7.0]);
+        let axis = Axis::parse("bladed_disk.longest_tip_m=-190e-6:190e-6:7").unwrap();
+        assert_eq!(axis.value(3), 0.0);
     }
 
     #[test]

@@ -78,13 +78,12 @@ pub fn is_inside(axis: &Axis, place: f64) -> bool {
 }
 
 fn chart_axis(axis: &Axis) -> ChartAxis {
+    let (from, to) = (axis.from, axis.to);
     match axis.log {
-        true => {
-            let unit = Some(unit(&axis.path));
-            ChartAxis::powers(axis.from.log10(), axis.to.log10(), unit)
-        }
-        false if axis.path == SPEED => ChartAxis::speeds(axis.from, axis.to),
-        false => ChartAxis::scaled(axis.from, axis.to),
+        true => ChartAxis::powers(from.log10(), to.log10(), Some(unit(&axis.path))),
+        false if axis.path == SPEED => ChartAxis::speeds(from, to),
+        false if axis.is_whole() => ChartAxis::whole(from, to),
+        false => ChartAxis::scaled(from, to),
     }
 }
 

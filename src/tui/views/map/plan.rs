@@ -129,9 +129,10 @@ impl MapAxis {
             _ => {}
         }
         let count = match knob.allowed() {
-            // One cell per integer.
+            // One cell per integer; a cut that leaves a single one is not made.
             Allowed::Whole { .. } => {
-                (from, to) = (from.ceil(), to.floor());
+                let inside = (from.ceil(), to.floor());
+                (from, to) = if inside.0 < inside.1 { inside } else { (from.floor(), to.ceil()) };
                 ((to - from).max(0.0) as u32).saturating_add(1).min(most)
             }
             _ if log => most,
