@@ -244,15 +244,8 @@ fn a_corner_without_a_push_does_not_flicker() {
 }
 
 #[test]
-fn a_strong_pulse_or_a_soft_casing_costs_no_more_looks() {
-    // Each once took tens of seconds in one free flight; their results are known.
-    let how = "solver event model rigid contact unilateral nd 0 pulse 1e11 end 1e-6 \
-               bladed_disk.blades 1 bladed_disk.blade_length_m 0.4999999997604368 \
-               operation.pulse_s 0.0011";
-    let thrown = crate::run_once(&scene("paper-nd3", how).checked().unwrap());
-    // F t^2/2m, the casing practically free.
-    assert!((thrown.r#final.u_c_m - 0.025).abs() < 1e-6, "{:?}", thrown.r#final);
-    assert_eq!(thrown.impact_count, 0);
+fn a_soft_casing_costs_no_more_looks() {
+    // It once took tens of seconds in one free flight.
     let how = "nd 429 end 3.16e-4 casing.modal_stiffness_n_per_m 4.1e-5 casing.radius_m 0.499901";
     let soft = run("paper-nd3", &format!("{HALF_N} {how}"));
     assert!(soft.outcome.message.unwrap().contains("no corner holds the casing wave"));

@@ -19,8 +19,9 @@ use crate::numeric::rounding::ROUND_OFF;
 /// rows would not be unique.
 pub(super) const MOST_HELD: usize = 4;
 
-/// Clearances that the casing may cross in one stretch. Larger: round-off of the series is a larger
-/// part of the clearance.
+/// Clearances that the casing may cross in one stretch; far off, a tenth of its displacement, which
+/// has that round-off anyway. Larger: round-off of the series is a larger part of the clearance, and a
+/// casing that leaves the range of the model is seen later.
 const FARTHEST: f64 = 1e3;
 
 /// Largest number of halvings of a stretch whose series does not converge; thirty cover ten decades of
@@ -207,7 +208,7 @@ impl Stretch {
         } else {
             STRETCH / if still { flow.casing_rates() } else { flow.rates() }
         };
-        let far = FARTHEST * flow.clearance();
+        let far = (0.1 * size(from.z)).max(FARTHEST * flow.clearance());
         let (crossed, driven) = (far / size(from.dz), (far / size(force)).sqrt());
         self.length = self.length.min(most).min(crossed).min(driven);
         self.noise = ROUND_OFF * spread * flow.size_of_free(&from, force);
