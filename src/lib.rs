@@ -1,5 +1,5 @@
 //! The `rubscope` program as a library, so that tests and benchmarks can reach its
-//! parts: [`report`] writes what the solvers of [`rubscope_solver`] return, [`machine`] makes a
+//! parts: [`sheet`] writes what the solvers of [`rubscope_solver`] return, [`machine`] makes a
 //! scene of modal data, [`cli`] is the command line, [`tui`] the explorer, and [`mod@file`] writes
 //! files completely or not at all.
 //!
