@@ -156,7 +156,8 @@ async def check():
         assert "403" in str(refused), refused
     else:
         sys.exit("FAILED: a page from elsewhere may open the socket")
-    await types(teacher, "q")
+    # The c after Ctrl-B compares with the other law; q closes that first.
+    await types(teacher, "qq")
     expect("a changed scene is asked about", lambda: "the scene is changed" in screen())
     await types(teacher, "q")
 
