@@ -169,9 +169,10 @@ impl SceneOptions {
 
     fn apply(&self, mut scene: Scene, swept: Swept) -> anyhow::Result<Resolved> {
         // What the scene is refused for also without the options has the name of its file.
-        let own = scene.checked().and_then(|scene| scene.slides()).err();
+        let own = scene.clone();
+        let refused = || own.checked().and_then(|own| own.slides()).err();
         let in_file = |error: SceneError| match self.name() {
-            Some(file) if own.as_ref() == Some(&error) => error.in_file(file),
+            Some(file) if refused().as_ref() == Some(&error) => error.in_file(file),
             _ => error,
         };
         tell_in_rpm(self.rpm);

@@ -143,7 +143,6 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     }
     let meets = app.machine.coincidence_speeds().into_iter().chain(app.machine.critical_speed());
     let contact = look.style(Role::Contact);
-    let meets = meets.map(|speed| (sense * speed, app.machine.omega_c, meet, contact));
-    chart.points = meets.collect();
+    chart.points = meets.map(|speed| (sense * speed, app.machine.omega_c, meet, contact)).collect();
     chart.draw(app, buffer, at, inside);
 }

@@ -57,8 +57,7 @@ impl ViewPanel for CoincidenceView {
     }
 
     fn here(&self, app: &App) -> Cursor {
-        let middle = Cursor { across: 0.5, up: 0.5 };
-        curves(app).map_or(middle, |curves| curves.speeds.here(app))
+        curves(app).map_or(Cursor { across: 0.5, up: 0.5 }, |curves| curves.speeds.here(app))
     }
 
     fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {

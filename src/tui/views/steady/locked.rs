@@ -23,9 +23,10 @@ use rubscope_solver::study::figures::{Panel, Series, Style};
 
 /// Height from which the large chart also shows the undamped curve of the paper.
 const ROOMY: u16 = 14;
-/// Names, units and remarks of the panels of the sheet.
-const PANELS: [[&str; 3]; 3] = [
-    ["locked λ(Ω)", "N", "below 0 pushes"],
+/// Name of the chart of the multipliers.
+const NAME: &str = "locked λ(Ω)";
+/// Names, units and remarks of the charts below it.
+const BELOW: [[&str; 3]; 2] = [
     ["locked α(Ω)", "rad", "one blade of each group"],
     ["locked u(Ω)", "m", "u_ss = u_cc, u_sc = -u_cs"],
 ];
@@ -39,42 +40,18 @@ impl ViewPanel for LockedView {
         let Some(curves) = curves.filter(|curves| curves.damped.is_some()) else {
             return nothing(app, buffer, at);
         };
-        let mut panels = curves.speeds.panels.clone();
-        panels.truncate(usize::from(at.area.height / LEAST_ROWS).max(1));
-        let below = u16::try_from(panels.len()).unwrap_or(1) - 1;
+        let below = (at.area.height / LEAST_ROWS).saturating_sub(1).min(BELOW.len() as u16);
         let lower = (at.area.height * 2 / (3 + 2 * below)).max(LEAST_ROWS);
         let rows = std::iter::once(Constraint::Min(1));
         let rows = rows.chain((0..below).map(|_| Constraint::Length(lower)));
         let areas = Layout::vertical(rows).split(at.area);
-        for ((panel, area), [name, unit, note]) in panels.iter_mut().zip(&*areas).zip(PANELS) {
-            let at = ViewArea { area: *area, ..at };
-            let (mut now, mut text, mut notes) = (Vec::new(), None, vec![note]);
-            let is_first = unit == "N";
-            if is_first {
-                name_multipliers(app, curves, panel);
-                now = running(app);
-                notes.extend(app.has_lining().then_some("of a rigid casing"));
-                notes.extend((app.machine.out_of_round() != 0.0).then_some("of a round casing"));
-                notes.extend(app.tuned_note());
-                let read = curves.speeds.read(app).filter(|_| at.large);
-                text = read.map(|speed| (reading(app, speed), Role::Focus));
-            }
-            // The scale follows the curves, because the mean force over an impact can be far
-            // outside.
-            let points = panel.series.iter().flat_map(|series| &series.points);
-            let y = ChartAxis::around(points.filter(|at| curves.scales(at.0)).map(|at| at.1));
-            if let Some(undamped) = curves.undamped.as_ref().filter(|_| is_first)
-                && at.large
-                && at.area.height >= ROOMY
-            {
-                let points = undamped.points.iter();
-                let points = points.map(|point| (point.speed_rad_s, point.multipliers_n[0]));
-                panel.series.push(Series::new("undamped", Style::Dotted(0), points));
-            }
-            let name = if is_first && at.area.width < NAMED_FROM { "λ(Ω)" } else { name };
-            let (now, beyond) = (is_first.then_some(now.as_slice()), Vec::new());
+        multipliers(app, buffer, ViewArea { area: areas[0], ..at }, curves);
+        let charts = curves.speeds.panels.iter().zip(&*areas).skip(1);
+        for ((panel, area), [name, unit, note]) in charts.zip(BELOW) {
+            let (y, notes) = (scale(curves, panel), vec![note]);
+            let (now, beyond, text) = (None, Vec::new(), None);
             let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
-            curves.speeds.draw(app, buffer, at, chart);
+            curves.speeds.draw(app, buffer, ViewArea { area: *area, ..at }, chart);
         }
     }
 
@@ -93,6 +70,37 @@ impl ViewPanel for LockedView {
         add_points(&damped.points, &mut sheet);
         Some(sheet)
     }
+}
+
+/// Draws the multipliers, with what is said of them, and the forces of the running motion.
+fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea, curves: &LockedCurves) {
+    let Some(mut panel) = curves.speeds.panels.first().cloned() else { return };
+    name_multipliers(app, curves, &mut panel);
+    let y = scale(curves, &panel);
+    let roomy = at.large && at.area.height >= ROOMY;
+    if let Some(undamped) = curves.undamped.as_ref().filter(|_| roomy) {
+        let points = undamped.points.iter();
+        let points = points.map(|point| (point.speed_rad_s, point.multipliers_n[0]));
+        panel.series.push(Series::new("undamped", Style::Dotted(0), points));
+    }
+    let mut notes = vec!["below 0 pushes"];
+    notes.extend(app.has_lining().then_some("of a rigid casing"));
+    notes.extend((app.machine.out_of_round() != 0.0).then_some("of a round casing"));
+    notes.extend(app.tuned_note());
+    let read = curves.speeds.read(app).filter(|_| at.large);
+    let text = read.map(|speed| (reading(app, speed), Role::Focus));
+    let name = if at.area.width < NAMED_FROM { "λ(Ω)" } else { NAME };
+    let now = running(app);
+    let (panel, unit, now, beyond) = (&panel, "N", Some(now.as_slice()), Vec::new());
+    let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
+    curves.speeds.draw(app, buffer, at, chart);
+}
+
+/// Returns the axis of a panel. It follows the curves, because the mean force over an impact can be
+/// far outside.
+fn scale(curves: &LockedCurves, panel: &Panel) -> ChartAxis {
+    let points = panel.series.iter().flat_map(|series| &series.points);
+    ChartAxis::around(points.filter(|at| curves.scales(at.0)).map(|at| at.1))
 }
 
 /// Names the multipliers, and adds that of the stable whirl. Without damping, equal tips have equal
@@ -118,7 +126,7 @@ fn nothing(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let unit = (format!("N over {}", speed_unit()), look.style(Role::Quiet));
     let legend = [unit, entry(look, &look.first(), "λ"), present(app, &running(app))];
-    let inside = title(app, buffer, at, PANELS[0][0], &legend);
+    let inside = title(app, buffer, at, NAME, &legend);
     let text = if app.results().found.locked.is_none() {
         return not_yet(app, buffer, inside);
     } else if app.is_pressed() {

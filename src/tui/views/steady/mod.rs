@@ -59,7 +59,6 @@ impl Speeds {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea, what: SpeedChart) {
         let look = &app.appearance;
         let [quiet, contact] = [Role::Quiet, Role::Contact].map(|role| look.style(role));
-        let point = look.either('◆', '@');
         let unit = format!("{}{} over {}", what.y.scale.prefix, what.unit, speed_unit());
         let mut entries = vec![(unit, quiet)];
         let [lines, dotted] = legend(look, what.panel);
@@ -81,20 +80,18 @@ impl Speeds {
         let y = what.y.evened(inside, look);
         let mut chart = Chart::new(ChartAxis::speeds(self.range[0], self.range[1]), y);
         chart.levels.push((0.0, "", Role::Quiet));
-        (chart.marks, chart.read, chart.now) =
-            (&self.marks, self.read(app), Some(app.speed().abs()));
-        chart.curves = curves(look, what.panel);
         let speed = app.speed().abs();
+        (chart.marks, chart.read, chart.now) = (&self.marks, self.read(app), Some(speed));
+        chart.curves = curves(look, what.panel);
         let place = |value: f64| match value {
             below if below < y.low => (look.either('▼', 'v'), y.low),
             above if above > y.high => (look.either('▲', '^'), y.high),
-            _ => (point, value),
+            _ => (look.either('◆', '@'), value),
         };
         let now = what.now.unwrap_or_default();
         let places = now.iter().map(|(value, _)| place(*value));
-        let beyond = what.beyond.into_iter();
         let up = (look.either('▲', '^'), look.style(Role::Trouble));
-        chart.points = beyond.map(|speed| (speed, y.high, up.0, up.1)).collect();
+        chart.points = what.beyond.into_iter().map(|speed| (speed, y.high, up.0, up.1)).collect();
         chart.points.extend(places.map(|(sign, value)| (speed, value, sign, contact)));
         let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
         for (value, text) in now.iter().filter(|_| at.area.width < NAMED_FROM) {
