@@ -37,8 +37,9 @@
 //! }
 //! ```
 //!
-//! A [`scene::Scene`] contains all inputs. It is a built-in one, a file ([`scene::Scene::load`]), or
-//! a text in the same format ([`scene::Scene::from_toml`]), with your own machine and its modes.
+//! A [`scene::Scene`] contains all inputs. It is built in, read from a file
+//! ([`scene::Scene::load`]), or from a text in the same format ([`scene::Scene::from_toml`]); it can
+//! describe your own machine and its modes.
 //! [`scene::Scene::set`] changes any key. [`scene::Scene::checked`] validates the scene; its result
 //! is the input of everything below.
 //!
@@ -59,8 +60,8 @@
 //! Units are SI. A negative multiplier pushes, a positive one pulls. The folder `examples` of this
 //! package has more complete programs. Comments cite equations by section of `docs/theory.md`. This
 //! crate prints nothing and formats no reports; the package `rubscope` does. Error types can gain
-//! variants (`non_exhaustive`). Verdicts, laws and solvers are exhaustive enums, so that the
-//! compiler reports a `match` that lacks a variant of a newer version.
+//! variants (`non_exhaustive`). Verdicts, laws and solvers are exhaustive enums: the compiler
+//! reports every `match` that lacks a newly added variant.
 
 pub mod harmonic;
 pub mod model;

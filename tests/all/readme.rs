@@ -218,12 +218,11 @@ fn the_first_minute_is_as_it_says() {
     }
 }
 
-/// The pictures of the views on the page of the explorer. View 7 has none: it shows times of this
-/// machine.
+/// The pictures of the views on the page of the explorer. That of view 7 shows times of one
+/// machine, so it is made only where it is missing.
 #[test]
 fn every_view_has_its_picture_on_the_page_of_the_explorer() {
-    let page = include_str!("../../docs/explorer.md");
-    for view in ["1", "2", "3", "4", "5", "6", "8", "9"] {
+    for view in ["1", "2", "3", "4", "5", "6", "7", "8", "9"] {
         let scene = Scene::builtin(if view == "9" { "coincidence" } else { "paper-nd3" }).unwrap();
         let mut session = Session::open(80, 24, scene, Theme::Dark, Marker::Braille);
         session.engine.map_cells = usize::MAX;
@@ -231,7 +230,9 @@ fn every_view_has_its_picture_on_the_page_of_the_explorer() {
             session.press(keys);
         }
         let file = format!("assets/pictures/view-{view}.svg");
-        assert_is_made(&file, &export::svg(&session.app));
-        assert!(page.contains(&format!("(../{file})")), "{file}");
+        if view != "7" || !std::path::Path::new(&file).exists() {
+            assert_is_made(&file, &export::svg(&session.app));
+        }
+        assert!(include_str!("../../docs/explorer.md").contains(&format!("(../{file})")), "{file}");
     }
 }
