@@ -85,7 +85,7 @@ impl NewCommand {
             return Err(Refusal::of("FILE", shown, "a name that ends in .toml").into());
         }
         if !shown.chars().all(keys::is_plain) {
-            return Err(Refusal::of("FILE", shown, "a name of letters that can be seen").into());
+            return Err(Refusal::of("FILE", shown, "a name of visible characters").into());
         }
         if path.symlink_metadata().is_ok() {
             let allowed = "a name that is not taken: this file exists";

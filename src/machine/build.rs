@@ -101,10 +101,8 @@ impl ModalData {
         line(&format!("centrifugal_stiffening = {stiffening:?}  # B: omega^2 + B Omega^2"));
         if listed {
             line("");
-            line(
-                "# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2. Diameters without",
-            );
-            line("# a mode have the values above.");
+            line("# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2. Nodal");
+            line("# diameters without a mode have the values above.");
         }
         for mode in self.disk.iter().filter(|_| listed) {
             line("[[bladed_disk.modes]]");
@@ -122,7 +120,7 @@ impl ModalData {
         line("[casing]");
         line(&format!("radius_m = {:?}  # inner radius R_c, m", self.radius_m));
         line(&format!(
-            "modal_mass_kg = {:?}  # m_c, kg; for diameters without a mode below",
+            "modal_mass_kg = {:?}  # m_c, kg; for nodal diameters without a mode below",
             casing.modal_mass_kg
         ));
         let stiffness = digits(casing.modal_mass_kg * omega * omega);

@@ -277,8 +277,8 @@ fn first(
     let mode = **doubted.first()?;
     let at = match (modes.len(), doubted.len()) {
         (1, _) => String::new(),
-        (_, 1) => format!(" at {} diameters", mode.diameters),
-        (_, all) => format!(" at {} diameters (and {} more)", mode.diameters, all - 1),
+        (_, 1) => format!(" at {} nodal diameters", mode.diameters),
+        (_, all) => format!(" at {} nodal diameters (and {} more)", mode.diameters, all - 1),
     };
     Some((mode, at))
 }
@@ -352,7 +352,7 @@ fn course_doubts(
         let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
         doubts.extend(near.map(|near| {
             format!(
-                "The {what} of the {} is {} {unit} at {} diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
+                "The {what} of the {} is {} {unit} at {} nodal diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
                 structure.name,
                 rounded(value(&odd), 4),
                 odd.diameters,

@@ -222,8 +222,8 @@ fn add(
     let Some(speed) = speed.filter(|_| at_speed.is_none() && !speeds.is_empty()) else {
         let given = format!("{} twice", mode.nodal_diameters);
         let allowed = format!(
-            "one mode for each number of diameters, or a pair whose frequencies and masses differ \
-             by {} % at most; of the disk also at several Speed [rpm]",
+            "one mode for each number of nodal diameters, or a pair whose frequencies and masses \
+             differ by {} % at most; for the disk also at several Speed [rpm]",
             100.0 * PAIR
         );
         return Err(SceneError::refused(path(MODE[0]), given, allowed));

@@ -208,13 +208,10 @@ impl Facts {
                 "one blade or group presses without a break and drags the wave.",
                 "One blade drags it.",
             ]),
-            Verdict::Bounce if self.touches == 0 => {
-                plain(["Blades and casing meet and part again.", "They meet and part."])
-            }
             Verdict::Bounce => {
-                let touches = touches(self.touches);
-                let long = format!("Blades and casing met and parted, with {touches} so far.");
-                [long, "They meet and part.".into()]
+                let count = Some(touches(self.touches)).filter(|_| self.touches > 0);
+                let count = count.map_or(String::new(), |count| format!(", with {count} so far"));
+                [format!("Contacts come and go{count}."), "Contacts come and go.".into()]
             }
             Verdict::Decay => self.decayed(),
             Verdict::Divergent => {
@@ -304,11 +301,7 @@ impl Facts {
             return [format!("No blade touches; {rest}."), "No blade touches.".into()];
         }
         let touches = touches(self.touches);
-        let who = match self.law {
-            ContactLaw::Smooth => "Blades leave the lining",
-            ContactLaw::Unilateral | ContactLaw::Bilateral => "The blades let go",
-        };
-        [format!("{who} after {touches}; {rest}."), "The blades let go.".into()]
+        [format!("Contact ends after {touches}; {rest}."), "Contact ends.".into()]
     }
 
     fn failed(&self) -> Forms {

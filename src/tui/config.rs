@@ -162,9 +162,9 @@ impl Memory {
         let is_folder = |folder: &PathBuf| folder.is_dir() || !folder.exists();
         if memory.complaint.is_none() && !folder.as_ref().is_some_and(is_folder) {
             let place = folder.map_or("no home folder".into(), |folder| {
-                format!("{} is no folder", folder.display())
+                format!("{} is not a folder", folder.display())
             });
-            memory.complaint = Some(clean(&format!("settings will not be kept: {place}")));
+            memory.complaint = Some(clean(&format!("settings will not be saved: {place}")));
         }
         memory
     }
@@ -210,7 +210,7 @@ impl Memory {
                 written.map_err(|error| error.to_string())
             });
             let failed =
-                |why| format!("nothing is remembered: cannot write {}: {why}", path.display());
+                |why| format!("settings are not saved: cannot write {}: {why}", path.display());
             // Sending fails if `keep` has given up.
             let _ = done.send(kept.err().map(failed));
         };

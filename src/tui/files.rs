@@ -74,7 +74,7 @@ pub fn run_in_thread<T: Send + 'static>(
 ) -> Option<T> {
     let work = move || {
         let result = catch_unwind(AssertUnwindSafe(work));
-        done(result.unwrap_or_else(|_| failed("the program has an error".into())));
+        done(result.unwrap_or_else(|_| failed("internal error".into())));
     };
     let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
     started.err().map(|error| failed(error.to_string()))
@@ -140,7 +140,7 @@ impl FoundScenes {
         let more = names.len().saturating_sub(MOST_FILES);
         names.truncate(MOST_FILES);
         let files = names.into_iter().filter_map(|name| load_scene(here, name)).collect();
-        let missing = (more > 0).then(|| format!("and {more} more files, which are not read"));
+        let missing = (more > 0).then(|| format!("{more} more files were not read"));
         Self { files, missing, reading: false }
     }
 }
@@ -216,7 +216,7 @@ mod tests {
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         let found = FoundScenes::of(folder.path());
         assert_eq!(found.files.len(), MOST_FILES - 1);
-        assert_eq!(found.missing.as_deref(), Some("and 3 more files, which are not read"));
+        assert_eq!(found.missing.as_deref(), Some("3 more files were not read"));
         let none = FoundScenes::of(&folder.path().join("none"));
         assert!(none.missing.unwrap().starts_with("this folder cannot be read"));
     }

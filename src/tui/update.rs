@@ -52,16 +52,16 @@ impl App {
             _ => None,
         };
         if let Some(room) = typed {
-            self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} letters"));
+            self.status = (!room).then(|| format!("no room: at most {LONGEST_TYPED} characters"));
             self.typed_on();
         } else {
             let way = match self.dialogue.is_closed() {
                 true => "? lists the keys",
                 false if self.keyboard() == Group::Filter => {
-                    "the list is of what is typed, Esc clears"
+                    "the list is filtered, Esc clears the filter"
                 }
-                false if self.dialogue.typed().is_some() => "Enter takes what is typed, Esc leaves",
-                false => "Esc leaves",
+                false if self.dialogue.typed().is_some() => "Enter accepts the text, Esc cancels",
+                false => "Esc closes this",
             };
             self.status = Some(clean(&format!("{chord} has no meaning here; {way}")));
         }
@@ -83,8 +83,8 @@ impl App {
             Command::Close if self.lessons.progress.is_some() => "G leaves the lesson".into(),
             Command::Close => "nothing is open; q quits".into(),
             Command::LeaveLesson => "no lesson is open; g lists them".into(),
-            Command::Turn { .. } => "this knob goes no further".into(),
-            _ => format!("{chord}: as it was, nothing to change here"),
+            Command::Turn { .. } => "this knob is at the end of its range".into(),
+            _ => format!("{chord} changes nothing here"),
         }
     }
 
@@ -291,10 +291,10 @@ impl App {
     pub fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Result<Effect, String> {
         let name = name.trim();
         if name.is_empty() {
-            return Err("a file name is needed; Esc leaves".into());
+            return Err("type a file name; Esc cancels".into());
         }
         if !name.chars().all(is_plain) {
-            return Err("a file name of letters that can be seen is needed".into());
+            return Err("a file name may have visible characters only".into());
         }
         let path = Path::new(name);
         if purpose == Purpose::Save && file::ending(path, &["toml"]).is_none() {
@@ -388,7 +388,7 @@ mod tests {
         }
         assert!(silent.is_empty(), "{silent:?}");
         let mut app = App::new(scene, Theme::Mono, Marker::Braille);
-        for (letter, says) in [('d', "no meaning here"), ('1', "as it was"), ('G', "no lesson")] {
+        for (letter, says) in [('d', "no meaning here"), ('1', "changes no"), ('G', "no lesson")] {
             app.key(&KeyEvent::new(KeyCode::Char(letter), KeyModifiers::NONE));
             assert!(app.status.as_ref().is_some_and(|status| status.contains(says)), "{letter}");
         }

@@ -85,7 +85,7 @@ fn a_config_file_that_cannot_be_written_is_told_once_at_the_end() {
     assert_eq!(terminal.wait(), 0);
     terminal.assert_restored();
     let text = terminal.text();
-    assert_eq!(text.matches("rubscope: nothing is remembered: cannot write ").count(), 1, "{text}");
+    assert_eq!(text.matches("rubscope: settings are not saved: ").count(), 1, "{text}");
     assert!(text.contains("File exists"), "{text}");
 }
 

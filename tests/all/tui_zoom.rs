@@ -239,7 +239,7 @@ fn zoom_keeps_the_cursor_in_the_middle_and_stays_inside_the_run() {
     session.press_each("--------");
     assert_eq!((page(&session), session.app.play.tempo.zoom), ([0.0, 0.02], 0));
     session.press_each("-");
-    assert!(session.app.status.as_ref().is_some_and(|said| said.contains("nothing to change")));
+    assert!(session.app.status.as_ref().is_some_and(|said| said.contains("changes nothing")));
     session.press_each("++E");
     assert_eq!(page(&session), [0.015, 0.02]);
     session.press_each("<<<<>");

@@ -40,7 +40,7 @@ impl Change {
         let lined = |scene: &Scene| scene.solver.contact == ContactLaw::Smooth;
         match (before.goes_beyond(), now.goes_beyond()) {
             _ if lined(before) != lined(now) => {
-                Some("the law of the start: a running motion keeps its lining, or has none")
+                Some("the initial law: a running motion cannot gain or lose a lining")
             }
             (false, true) => Some(
                 "a value that stays in the paper's model: a running motion does not leave it \

@@ -186,7 +186,7 @@ pub trait Solver: Debug + Send + Sync {
         let digs_in = self.machine().coupling_product_at(speed) < 0.0;
         Some(match failure.reason {
             FailureReason::Singular { .. } if digs_in => format!(
-                "{message}; where kappa (kappa + mu) < 0, a push may close the gap that it is to open"
+                "{message}; where kappa (kappa + mu) < 0, a push may close the gap that it should open"
             ),
             _ => message,
         })

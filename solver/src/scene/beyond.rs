@@ -236,7 +236,7 @@ fn opening(scene: &Scene) -> Result<(), SceneError> {
     let [far, near] = [up(0.5 * mu + half), down(0.5 * mu - half)].map(|end| end.copysign(kappa));
     let allowed = format!(
         "not from {} to {} with contact.friction = {mu} and rigid contact: there \
-         kappa (kappa + mu) l_b^2/m_a is below -1/m_c, and a push closes the gap that it is to \
+         kappa (kappa + mu) l_b^2/m_a is below -1/m_c, and a push closes the gap that it should \
          open; solver.contact = \"smooth\" takes it",
         far.min(near),
         far.max(near)

@@ -514,7 +514,7 @@ keys! {
     DIAMETERS "operation.nodal_diameters" = whole(Never, "nodal diameters n_d", 0..4096, operation.nodal_diameters),
         "diameters n_d" Whole(1, 4) "nodal diameters of the wave in casing and blades";
     SPEED "operation.speed_rad_s" = real(Always, "rad/s", "rotor speed Omega", false -1e6..1e6, operation.speed_rad_s),
-        "speed Ω" Linear(5.0, 50.0) "rotor speed: above Ω_c the wave is pushed onto the blades, above Ω_lock a lock only pushes";
+        "speed Ω" Linear(5.0, 50.0) "rotor speed: above Ω_c the wave presses against the blades, above Ω_lock a lock only pushes";
     SPEED_RAMP "operation.speed_ramp_rad_s2" = real(Always, "rad/s^2", "rotor acceleration", false -1e9..1e9, operation.speed_ramp_rad_s2),
         "speed ramp" Decades(1.0) "rotor acceleration; negative slows down";
     PULSE "operation.pulse_n" = real(Steps, "N", "pulse force on u_c", false -1e12..1e12, operation.pulse_n),

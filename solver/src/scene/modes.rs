@@ -89,7 +89,7 @@ impl Structure {
             return Err(SceneError::refused(
                 format!("{}.{DIAMETERS}", self.path),
                 format!("{} twice", mode.nodal_diameters),
-                "one mode for each number of diameters",
+                "one mode for each number of nodal diameters",
             ));
         }
         if !speeds.is_empty() {
@@ -319,7 +319,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     let given = hertz(neighbours + stiffness(mode));
     let least = hertz(neighbours);
     let allowed = format!(
-        "above {least:.4} at {diameters} diameters, which {} = {coupling} alone gives",
+        "above {least:.4} at {diameters} nodal diameters, which {} = {coupling} alone gives",
         keys::BLADE_COUPLING
     );
     let name = format!("{}.{FREQUENCY}", keys::DISK_MODES);

@@ -29,7 +29,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     let locks = locks.collect::<Result<Vec<ExcitedLock>, _>>()?;
     let words = match reaches {
         true => ": amplitudes about the damped lock.",
-        false => " does not drive the modes of these diameters: E is not +-n_d modulo N.",
+        false => " does not drive these modes: E is not +-n_d modulo N.",
     };
     let amplitude = short(excitation.amplitude_nm);
     let title =

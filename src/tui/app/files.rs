@@ -121,7 +121,7 @@ impl App {
             }
             // Keys pressed since then were meant for something else and must not answer the
             // question.
-            FileResult::Exists => Some(format!("{name} exists and is as it was; save again")),
+            FileResult::Exists => Some(format!("{name} exists and was not replaced; save again")),
         };
         result == FileResult::Written
     }
@@ -229,7 +229,7 @@ pub fn draw_scenes(app: &App, buffer: &mut Buffer, area: Rect) {
     let head = match (&found.missing, found.reading) {
         (_, true) => "Scenes: reading the files of this folder".to_string(),
         (Some(missing), false) => format!("Scenes: {missing}"),
-        (None, false) => "Scenes: Enter opens one, u brings the former back".to_string(),
+        (None, false) => "Scenes: Enter opens one, u returns to the previous one".to_string(),
     };
     let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
     print(buffer, area, 0, &shorten(&look.spell(&head), usize::from(area.width), mark), bold);
@@ -353,7 +353,7 @@ mod tests {
             assert_eq!(app.status, None);
         }
         press(&mut app, KeyCode::Char('x'));
-        assert_eq!(app.status.as_deref(), Some("no room: at most 1000 letters"));
+        assert_eq!(app.status.as_deref(), Some("no room: at most 1000 characters"));
         press(&mut app, KeyCode::Backspace);
         assert_eq!(app.status, None);
     }

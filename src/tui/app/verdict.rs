@@ -165,13 +165,12 @@ impl App {
             Happening::Contact(before, now) => match (before, now) {
                 (ActiveSet::Corner(a, b), ActiveSet::Side(kept)) if kept == a || kept == b => {
                     let gone = blades(ActiveSet::Side(if kept == a { b } else { a }));
-                    format!("{gone} lets go, {} still touches", blades(now))
+                    format!("release of {gone}, {} still touches", blades(now))
                 }
                 _ => self.state_of(now),
             },
-            Happening::Release(gone @ ActiveSet::Side(_)) => format!("{} lets go", blades(gone)),
-            Happening::Release(gone @ ActiveSet::Corner(..)) => format!("{} let go", blades(gone)),
-            Happening::Release(_) => "all let go".into(),
+            Happening::Release(ActiveSet::Many) => "release of all".into(),
+            Happening::Release(gone) => format!("release of {}", blades(gone)),
         }
     }
 

@@ -29,8 +29,8 @@ inert! {
     step: |scene| is_event(scene) => "the event solver has no steps";
     lining: |scene| scene.solver.contact != ContactLaw::Smooth => "only the smooth law has a lining";
     restitution: |scene| scene.solver.contact != ContactLaw::Unilateral => "only the unilateral law rebounds";
-    not_modal: |scene| !has(ModelSize::Modal, scene) => "only the modal model chooses the diameters of the disk";
-    not_full: |scene| !has(ModelSize::Full, scene) => "only the full model has single blades";
+    not_modal: |scene| !has(ModelSize::Modal, scene) => "only the modal model uses n_b";
+    not_full: |scene| !has(ModelSize::Full, scene) => "only the full model has individual blades";
     tangential: |scene| scene.contact.friction == 0.0 => "without friction nothing pulls the casing along";
     equal_tips: |scene| scene.bladed_disk.tip_scatter_m == 0.0 => "the tip scatter is 0";
     centred: |scene| scene.bladed_disk.orbit_m == 0.0 => "the orbit is 0";

@@ -109,7 +109,7 @@ impl Knob {
         let why = match self.allowed() {
             _ if reads => "is not possible",
             Allowed::OneOf(_) => "is unknown",
-            Allowed::Whole { .. } => "is no whole number",
+            Allowed::Whole { .. } => "is not a whole number",
             _ => "is not a number",
         };
         format!("{}: {shown} {why}; {}", self.label, self.range_words())

@@ -107,6 +107,13 @@ impl ViewArea {
         (first, Some(second))
     }
 
+    /// Extends a chart by a row if the area `lower`, with a chart over the same x values, is below it:
+    /// the title of that chart covers the labels of this axis, so that both share those of the lower one.
+    pub fn above(mut self, lower: Rect) -> Self {
+        self.area.height += u16::from(self.area.bottom() == lower.y);
+        self
+    }
+
     /// Splits the area into two columns of equal width.
     pub fn columns(self) -> [Self; 2] {
         let halves = [Constraint::Percentage(50), Constraint::Percentage(50)];
@@ -209,7 +216,7 @@ pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
     let quiet = app.appearance.style(Role::Quiet);
     let text = match app.full_run() {
         Some(_) => "computing ...",
-        None => "waits for the verdict of the run",
+        None => "waiting for the verdict of the run",
     };
     print(buffer, inside, 1, text, quiet);
 }

@@ -40,7 +40,7 @@ impl ViewPanel for ResponseView {
             && app.layout.full_screen
             && bends(app)
         {
-            page(app, buffer, above, &casing);
+            page(app, buffer, above.above(below.area), &casing);
             let blades = Page {
                 name: "response, blades".into(),
                 names: ["α_c", "α_s"],
@@ -170,10 +170,12 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
         own: false,
         ..Page::casing(format!("{}: {word}", law.other()), app)
     };
-    page(app, buffer, first, &Page::casing(own, app));
+    let own = Page::casing(own, app);
     if let Err(why) = other_law(&app.scene) {
+        page(app, buffer, first, &own);
         return refused(app, buffer, second, &theirs.name, &clean(&why.to_string()));
     }
+    page(app, buffer, first.above(second.area), &own);
     page(app, buffer, second, &theirs);
 }
 

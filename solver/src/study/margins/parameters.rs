@@ -120,7 +120,7 @@ impl Parameter {
             _ => (&scene.bladed_disk.modes, &changed.bladed_disk.modes, scene.disk_diameters()),
         };
         Some(match before != now {
-            true => format!("{leaf} = {value:?} in [[{table}.modes]], {diameters} diameters"),
+            true => format!("{leaf} = {value:?} in [[{table}.modes]], {diameters} nodal diameters"),
             false => format!("{leaf} = {value:?} in [{table}]"),
         })
     }

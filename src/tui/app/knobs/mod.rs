@@ -169,7 +169,7 @@ impl App {
         let mut scene = self.scene.clone().into_scene();
         scene.solver.plain = !scene.solver.plain;
         let how =
-            if scene.solver.plain { "every step is taken" } else { "known steps are skipped" };
+            if scene.solver.plain { "every step is taken" } else { "steps are skipped again" };
         self.turn_to(scene.checked().map_err(|error| error.to_string())?);
         self.status = Some(how.into());
         Ok(())
@@ -181,7 +181,7 @@ impl App {
         let can_act = self.failure().is_none() && self.run.film.has_room(self.now());
         let live = self.knobs.live && can_act && Change::acts_live(&self.scene, &scene);
         if self.knobs.live && !live && self.status.is_none() {
-            self.status = Some("this cannot act on a running motion: restarted".into());
+            self.status = Some("this change needs a new run: restarted".into());
         }
         self.set_scene(scene, live);
     }

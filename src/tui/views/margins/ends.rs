@@ -40,7 +40,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let old = known.as_ref().is_some_and(|(_, old)| *old);
     let locked = app.verdict() == Some(Verdict::Locked);
     let name = if locked { "what ends this lock" } else { "what would lock" };
-    let legend = old.then(|| ("for the knobs before".to_string(), look.style(Role::Focus)));
+    let legend = old.then(|| ("outdated".to_string(), look.style(Role::Focus)));
     let inside = title(app, buffer, at, name, legend.as_slice());
     let Some(margins) = known.map(|(live, _)| &live.margins) else {
         return not_yet(app, buffer, inside);

@@ -48,7 +48,7 @@ impl ViewPanel for MarginsView {
             return survey::draw(app, buffer, at, survey::cell(app).filter(|_| at.large));
         }
         let look = &app.appearance;
-        let inside = title(app, buffer, at, "margins", &rows::title(app, at.area.width));
+        let inside = title(app, buffer, at, "margins", &rows::title(app));
         let Some((live, old)) = app.margins() else { return not_yet(app, buffer, inside) };
         let cell = app.margins_cell().filter(|_| at.large);
         let told = match (at.large, inside.height) {
@@ -108,7 +108,7 @@ impl ViewPanel for MarginsView {
         }
         let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
         if old {
-            let reason = "these margins are for the knobs before; new ones are being computed";
+            let reason = "these margins are outdated; new ones are being computed";
             return Some(Command::Nothing(reason.into()));
         }
         Some(rows::opening(live.margins.limits.get(row)?, column, app))
@@ -147,7 +147,7 @@ impl App {
         self.walk(ViewId::Margins);
         self.status = Some(match on {
             true => {
-                format!("margins of all diameters; : range {ends} gives the speeds of a machine")
+                format!("survey of all nodal diameters; : range {ends} sets the speeds")
             }
             false => "margins of n_d alone".to_string(),
         });
@@ -248,12 +248,12 @@ mod tests {
     fn margins_of_other_knobs_are_marked_and_nothing_jumps_there() {
         let mut app = app();
         app.reading.cursor = Some(MarginsView.here(&app));
-        assert!(!text(&app).contains("for the knobs before"));
+        assert!(!text(&app).contains("outdated"));
         assert!(matches!(app.opening(), Some(Command::JumpTo { .. })));
         let mut other = app.scene.clone().into_scene();
         other.casing.damping_ratio = 0.1;
         app.set_scene(other.checked().unwrap(), false);
-        assert!(text(&app).contains("for the knobs before"), "{}", text(&app));
+        assert!(text(&app).contains("outdated"), "{}", text(&app));
         assert!(matches!(app.opening(), Some(Command::Nothing(_))));
     }
 }

@@ -82,12 +82,11 @@ pub fn role(limit: &Limit, column: usize) -> Role {
 
 /// Returns the entries of the title: a note if the margins are outdated, and the sign of the
 /// nearest limit.
-pub fn title(app: &App, width: u16) -> Vec<(String, Style)> {
+pub fn title(app: &App) -> Vec<(String, Style)> {
     let look = &app.appearance;
     let mut line = Vec::new();
     if app.margins().is_some_and(|(_, old)| old) {
-        let text = if width < 50 { "old" } else { "for the knobs before" };
-        line.push((text.to_string(), look.style(Role::Focus)));
+        line.push(("outdated".to_string(), look.style(Role::Focus)));
     }
     line.push((format!("{} nearest", look.either("●", "*")), look.style(Role::Focus)));
     line.extend(app.tuned_note().map(|note| (note.to_string(), look.style(Role::Quiet))));

@@ -36,9 +36,9 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
         legend.push(("? borrowed modes".to_string(), quiet));
     }
     if found.is_some_and(|(_, old)| old) {
-        legend.insert(0, ("for the knobs before".to_string(), look.style(Role::Focus)));
+        legend.insert(0, ("outdated".to_string(), look.style(Role::Focus)));
     }
-    let inside = title(app, buffer, at, "all diameters", &legend);
+    let inside = title(app, buffer, at, "survey", &legend);
     match found {
         Some((survey, _)) => table(app, buffer, at, inside, (survey, cell)),
         None => not_yet(app, buffer, inside),
@@ -63,7 +63,7 @@ fn table(
     let below = Rect { y: area.y + height, height: area.height - height, ..area };
     if let Some(row) = cell.and_then(|place| rows.get(place)) {
         let known = if row.guessed { ", no mode of its own" } else { "" };
-        told = lines(&format!("n_d {}{known}: Enter takes these diameters", row.nodal_diameters));
+        told = lines(&format!("n_d {}{known}: Enter selects it", row.nodal_diameters));
     }
     told.truncate(usize::from(height));
     lines_above(app, buffer, area, &told, Role::Focus);

@@ -35,7 +35,8 @@ impl ViewPanel for CoincidenceView {
         };
         let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
         let (first, second) = if grows { at.pair(40) } else { (at, None) };
-        let areas = [Some(first), second].into_iter().flatten();
+        let first = second.map_or(first, |second| first.above(second.area));
+        let areas = std::iter::once(first).chain(second);
         for ((panel, at), [name, unit]) in curves.speeds.panels.iter().zip(areas).zip(PANELS) {
             let (mut now, mut text, mut beyond) = (None, None, Vec::new());
             if unit == "rad" {

@@ -45,13 +45,17 @@ impl ViewPanel for LockedView {
         let rows = std::iter::once(Constraint::Min(1));
         let rows = rows.chain((0..below).map(|_| Constraint::Length(lower)));
         let areas = Layout::vertical(rows).split(at.area);
-        multipliers(app, buffer, ViewArea { area: areas[0], ..at }, curves);
-        let charts = curves.speeds.panels.iter().zip(&*areas).skip(1);
-        for ((panel, area), [name, unit, note]) in charts.zip(BELOW) {
+        let placed = areas.iter().enumerate().map(|(place, area)| {
+            let at = ViewArea { area: *area, ..at };
+            areas.get(place + 1).map_or(at, |lower| at.above(*lower))
+        });
+        let mut charts = curves.speeds.panels.iter().zip(placed);
+        charts.next().into_iter().for_each(|(_, at)| multipliers(app, buffer, at, curves));
+        for ((panel, at), [name, unit, note]) in charts.zip(BELOW) {
             let (y, notes) = (scale(curves, panel), vec![note]);
             let (now, beyond, text) = (None, Vec::new(), None);
             let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
-            curves.speeds.draw(app, buffer, ViewArea { area: *area, ..at }, chart);
+            curves.speeds.draw(app, buffer, at, chart);
         }
     }
 
@@ -132,7 +136,7 @@ fn nothing(app: &App, buffer: &mut Buffer, at: ViewArea) {
     } else if app.is_pressed() {
         "all blades rub at rest: nothing locks; view 9 shows what grows"
     } else if app.machine.has_other_diameters() {
-        "the disk has other diameters than the casing: no pair of blades locks"
+        "disk and casing have different nodal diameters: no pair of blades locks"
     } else if app.machine.has_unequal_tips() {
         "no lock speed is known for these tips; a run shows a lock"
     } else {
