@@ -210,6 +210,7 @@ impl App {
             Command::Guide => self.guide(),
             Command::Lesson(place) => self.begin_lesson(place),
             Command::LessonBack => self.lesson_back(),
+            Command::LessonScene(name, scene) => self.open_lesson_scene(name, *scene),
             Command::Answer(place) => self.answer(place),
             Command::LeaveLesson => self.leave_lesson(),
             Command::Above if self.is_asked() => self.choose_answer(true),
@@ -254,7 +255,7 @@ impl App {
                 self.status = Some("restarted".into());
             }
             Command::Fire => self.fire(),
-            Command::ZoomIn | Command::ZoomOut | Command::ZoomReset => self.zoom(command),
+            Command::ZoomIn | Command::ZoomOut | Command::Page(_) => self.zoom(command),
             Command::PageBack => self.pan(true),
             Command::PageForward => self.pan(false),
             Command::View(view) => self.walk(view),
@@ -269,6 +270,8 @@ impl App {
             Command::Pin => self.pin(),
             Command::OtherLaw if self.is_large(ViewId::Map) => self.other_map_law(),
             Command::OtherLaw => self.compare(),
+            Command::Compare(on) => self.run.set_compare(on),
+            Command::Behind(view) => self.layout.put_behind(view),
             Command::Axes(paths) => self.put_axes(paths),
             Command::Survey => self.turn_survey(),
             Command::Range { ends, doubt } => {

@@ -181,6 +181,16 @@ impl App {
         self.set_scene(scene, false);
     }
 
+    /// Opens the scene of a step of a lesson, which is made from the built-in scene `name`.
+    pub fn open_lesson_scene(&mut self, name: String, scene: CheckedScene) {
+        let source = Scene::builtin(&name).ok().map(|scene| Source { name, scene });
+        self.files.open(scene.clone(), source);
+        self.knobs.refusal = None;
+        if scene != self.scene {
+            self.set_scene(scene, false);
+        }
+    }
+
     /// Returns the scene to save. If knobs were turned, the title and note of the opened scene no
     /// longer apply and are replaced by a list of the changes.
     pub fn scene_to_save(&self) -> Scene {

@@ -61,6 +61,17 @@ impl Layout {
         true
     }
 
+    /// Puts `last` behind the other small charts, and slow studies behind quick ones.
+    pub fn put_behind(&mut self, last: Option<ViewId>) {
+        if let Some((_, others)) = self.views.split_first_mut() {
+            others.sort_by_key(|view| match *view {
+                view if Some(view) == last => 2,
+                ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
+                _ => 0,
+            });
+        }
+    }
+
     /// Returns the view `by` places after the large one in the table, cyclically.
     pub fn neighbour(&self, by: i64) -> ViewId {
         let views: Vec<ViewId> = ViewId::all().collect();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
-use super::model::{App, InputMode, LessonProgress, Past, Source, StepProgress};
+use super::model::{App, InputMode, LessonProgress, Past, StepProgress};
 use crate::sheet::number::with_speeds;
 use crate::tui::command::Command;
 use crate::tui::knobs::{knob_of, place_of};
@@ -14,7 +14,7 @@ use crate::tui::list::draw_list as draw_lines;
 use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
-use rubscope_solver::scene::{Scene, Value};
+use rubscope_solver::scene::{SceneError, Value};
 
 impl LessonProgress {
     /// Returns the progress in the current step.
@@ -166,10 +166,6 @@ impl App {
             },
         });
         self.lessons.progress = Some(LessonProgress { step, choice: 0, ..begun });
-        let knob = lesson.steps.get(step).and_then(|found| found.knob.as_deref());
-        if let Some(place) = knob.and_then(place_of) {
-            self.knobs.select(place);
-        }
         self.show_step(past);
     }
 
@@ -194,44 +190,38 @@ impl App {
         self.show_step(past);
     }
 
-    /// Applies scene and view of the current step; undo returns to `past`.
+    /// Shows the current step by the commands that a hand could give; one undo returns to `past`.
     fn show_step(&mut self, past: Past) {
         let Some((lesson, progress)) = self.current_lesson() else { return };
-        let Some(step) = lesson.steps.get(progress.step) else { return };
-        let answered = !self.is_asked();
-        match lesson.scene_at(progress.step, answered) {
-            Ok(scene) => {
+        match self.step_commands(lesson, progress.step) {
+            Ok(commands) => {
                 self.knobs.remember(past);
-                let name = lesson.scene.clone();
-                let source = Scene::builtin(&name).ok().map(|scene| Source { name, scene });
-                self.files.open(scene.clone(), source);
-                if scene != self.scene {
-                    self.set_scene(scene, false);
-                }
+                let refused = commands.into_iter().find_map(|command| self.update(command).err());
+                self.status = refused;
             }
             Err(error) => self.status = Some(error.to_string()),
         }
-        self.knobs.refusal = None;
-        self.knobs.live = step.live;
-        self.run.set_compare(step.compare && answered);
-        self.play.tempo.slow_at_events = true;
-        self.play.tempo.zoom = step.page_s.map_or(0, |length| self.play.zoom_for(length));
-        let then = step.then_view.as_ref().filter(|_| answered);
-        let view = then.or(step.view.as_ref()).and_then(|word| ViewId::from_word(word));
-        if let Some(view) = view {
-            self.show(view);
-        }
-        // A chart that would reveal the answer goes last until then, and slow studies go after
-        // quick ones.
-        let hidden = step.then_view.as_deref().filter(|_| !answered);
-        let hidden = hidden.and_then(ViewId::from_word);
-        if let Some((_, others)) = self.layout.views.split_first_mut() {
-            others.sort_by_key(|view| match *view {
-                view if Some(view) == hidden => 2,
-                ViewId::Map | ViewId::Precision | ViewId::Margins => 1,
-                _ => 0,
-            });
-        }
+    }
+
+    /// Returns the commands that show a step, before or after its question is answered.
+    ///
+    /// # Errors
+    /// A value of the lesson is refused.
+    fn step_commands(&self, lesson: &Lesson, place: usize) -> Result<Vec<Command>, SceneError> {
+        let Some(step) = lesson.steps.get(place) else { return Ok(Vec::new()) };
+        let answered = !self.is_asked();
+        let view = |word: &Option<String>| ViewId::from_word(word.as_deref()?);
+        let scene = Box::new(lesson.scene_at(place, answered)?);
+        let mut commands = vec![Command::LessonScene(lesson.scene.clone(), scene)];
+        commands.extend(step.knob.as_deref().and_then(place_of).map(Command::Select));
+        commands.extend((self.knobs.live != step.live).then_some(Command::Live));
+        commands.extend((!self.play.tempo.slow_at_events).then_some(Command::SlowAtEvents));
+        commands.push(Command::Page(step.page_s));
+        let then = view(&step.then_view).filter(|_| answered);
+        commands.extend(then.or(view(&step.view)).map(Command::View));
+        commands.push(Command::Compare(step.compare && answered));
+        commands.push(Command::Behind(view(&step.then_view).filter(|_| !answered)));
+        Ok(commands)
     }
 }
 

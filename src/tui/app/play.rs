@@ -196,6 +196,7 @@ impl App {
             Command::ZoomIn => ((self.play.tempo.zoom + 1).min(MOST_ZOOM), middle),
             Command::ZoomOut if whole => return,
             Command::ZoomOut => ((self.play.tempo.zoom - 1).max(-MOST_ZOOM), middle),
+            Command::Page(Some(length)) => (self.play.zoom_for(length), self.reading.at_s),
             _ => (0, self.reading.at_s),
         };
     }

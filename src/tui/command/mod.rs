@@ -1,7 +1,6 @@
 //! Everything that can be done in the explorer. A key, a click, a word after `:` and a line of
-//! `--lines` are commands; `update` executes them. The table in `table` gives the keys of a command,
-//! its words in help, footer and manual, and the group in which its keys are valid. A step of a
-//! lesson is no list of commands, but a state: undo and the step before take it back as a whole.
+//! `--lines` are commands, and a step of a lesson is a list of them; `update` executes them. The table in `table` gives the keys of a command,
+//! its words in help, footer and manual, and the group in which its keys are valid.
 
 pub mod chord;
 pub mod table;
@@ -105,8 +104,8 @@ pub enum Command {
     ZoomIn,
     /// Lengthen the page of time.
     ZoomOut,
-    /// Return to the usual page of time.
-    ZoomReset,
+    /// Show a page of time of at least this length \[s\], or the usual one.
+    Page(Option<f64>),
     /// Go on to the next change of contact.
     Jump,
     /// Go to the end of the run.
@@ -129,6 +128,10 @@ pub enum Command {
     Pin,
     /// Compare with the other contact law; in the map, use its law.
     OtherLaw,
+    /// Compare with the other contact law from now on, or no longer.
+    Compare(bool),
+    /// Put this view, which would answer a question, behind the others, and slow ones before it.
+    Behind(Option<ViewId>),
     /// Switch between the margins of all nodal diameters and those of one.
     Survey,
     /// Survey all nodal diameters over a range of rotor speeds \[rad/s\]; `None` for all speeds.
@@ -171,6 +174,8 @@ pub enum Command {
     Scenes,
     /// Open a scene, given by its name.
     Scene(String),
+    /// Open the scene of a step of a lesson, made from the built-in one of this name.
+    LessonScene(String, Box<CheckedScene>),
     /// Open the list of lessons; in a lesson, show its next step.
     Guide,
     /// Begin a lesson, given by its index in `lessons::all`.

@@ -193,7 +193,7 @@ const BEFORE_VIEWS: &[Binding] = &[
 const AFTER_VIEWS: &[Binding] = &[
     bind!(Time: [letter('+')], Command::ZoomIn, "a shorter page of time"),
     bind!(Time: [letter('-')], Command::ZoomOut, "a longer page of time"),
-    bind!(Time: [letter('=')], Command::ZoomReset, "the default page of time, around NOW"),
+    bind!(Time: [letter('=')], Command::Page(None), "the default page of time, around NOW"),
     bind!(Views: [letter('a')], Command::Autoscale, "scales follow the data or stay fixed"),
     bind!(Look: [letter('m')], Command::Marker, "next marker (braille, halfblock, dot, ascii)"),
     bind!(Look: [letter('t')], Command::NextTheme, "next theme (dark, light, colour-blind on dark or light, mono)"),
