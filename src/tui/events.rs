@@ -4,13 +4,11 @@ use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::Duration;
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseEvent};
+use crossterm::event::{KeyEvent, MouseEvent};
 
 use super::files::{FileResult, FoundScenes};
 use super::ground::Ground;
-
-/// Ctrl-C.
-pub const INTERRUPT: KeyEvent = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
+use super::terminal::INTERRUPT;
 
 /// An event for the drawing thread.
 #[derive(Clone, Debug, PartialEq)]

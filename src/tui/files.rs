@@ -3,10 +3,8 @@
 //! limit.
 
 use std::io::{ErrorKind, Write};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::thread;
 
 use crate::file;
 use crate::sheet::line::clean;
@@ -63,21 +61,6 @@ impl FileJob {
             Err(error) => FileResult::Failed(error.to_string()),
         }
     }
-}
-
-/// Runs `work` in a new thread and passes its result to `done`; after a panic, `failed` makes the
-/// result. If the thread cannot start, returns the failure instead of calling `done`.
-pub fn run_in_thread<T: Send + 'static>(
-    work: impl FnOnce() -> T + Send + 'static,
-    failed: fn(String) -> T,
-    done: impl FnOnce(T) + Send + 'static,
-) -> Option<T> {
-    let work = move || {
-        let result = catch_unwind(AssertUnwindSafe(work));
-        done(result.unwrap_or_else(|_| failed("internal error".into())));
-    };
-    let started = thread::Builder::new().name(FILES_NAME.into()).spawn(work);
-    started.err().map(|error| failed(error.to_string()))
 }
 
 /// Largest number of scene files of a directory that are read; usually there are some dozens.

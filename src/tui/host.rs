@@ -1,11 +1,12 @@
 //! What the event loop needs besides a backend: job control, clipboard, mouse and files.
 
 use std::io::Result;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use super::events::ScreenEvent;
-use super::files::{FileJob, FileResult, FoundScenes, run_in_thread};
+use super::files::{FILES_NAME, FileJob, FileResult, FoundScenes};
 use super::job;
 use super::line::Line;
 use super::terminal;
@@ -30,24 +31,33 @@ pub trait Host {
     /// Fails if the terminal cannot be written to.
     fn copy(&mut self, text: &str) -> Result<()>;
     /// Returns the limit on the bytes sent to the terminal.
-    fn line(&self) -> Line;
+    fn line(&self) -> Line {
+        Line::Auto
+    }
     /// Returns the number of bytes sent to the terminal so far.
-    fn sent(&self) -> u64;
+    fn sent(&self) -> u64 {
+        0
+    }
     /// Returns whether any write had to wait for the terminal.
-    fn is_slow(&self) -> bool;
+    fn is_slow(&self) -> bool {
+        false
+    }
     /// Returns whether the last frame was abandoned; then the whole screen must be drawn again.
     fn is_torn(&mut self) -> bool {
         false
     }
+    /// Says before a frame whether `q` is typed into a text; otherwise it quits, and no frame keeps
+    /// it waiting.
+    fn typing(&mut self, _: bool) {}
     /// Switches the terminal's mouse reports on or off.
-    fn mouse(&mut self, on: bool);
-    /// Writes a file. `None` means that the result will arrive as an event.
-    fn write(&mut self, job: FileJob) -> Option<FileResult>;
+    fn mouse(&mut self, _: bool) {}
+    /// Writes a file. `None` means that the event with the result will arrive.
+    fn write(&mut self, job: FileJob) -> Option<ScreenEvent>;
+    /// Reads the scenes of a directory. `None` means that the event with them will arrive.
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<ScreenEvent>;
     /// Records why a file was not written, to be printed on exit; `None` once a frame has shown the
     /// reason.
-    fn unseen(&mut self, reason: Option<String>);
-    /// Reads the scenes of a directory. `None` means that they will arrive as an event.
-    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes>;
+    fn unseen(&mut self, _: Option<String>) {}
 }
 
 /// The real terminal and shell; files are written in a thread of their own.
@@ -110,26 +120,46 @@ impl Host for Shell {
         terminal::take_torn()
     }
 
+    fn typing(&mut self, typing: bool) {
+        terminal::set_typing(typing);
+    }
+
     fn mouse(&mut self, on: bool) {
         // If the terminal is gone, the next frame fails and ends the program.
         let _ = terminal::set_mouse(on);
     }
 
-    fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        let events = self.events.clone();
-        // Sending fails only if the program is about to end.
-        let done = move |result| _ = events.send(ScreenEvent::Written(result));
-        run_in_thread(move || job.run(), FileResult::Failed, done)
+    fn write(&mut self, job: FileJob) -> Option<ScreenEvent> {
+        let failed = |why| ScreenEvent::Written(FileResult::Failed(why));
+        self.in_thread(move || ScreenEvent::Written(job.run()), failed)
     }
 
     fn unseen(&mut self, reason: Option<String>) {
         self.unseen = reason;
     }
 
-    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<ScreenEvent> {
+        let failed = |why| ScreenEvent::Scenes(FoundScenes::failed(why));
+        self.in_thread(move || ScreenEvent::Scenes(FoundScenes::of(&directory)), failed)
+    }
+}
+
+impl Shell {
+    /// Runs `work` in a thread that sends its event, or that of `failed` after a panic. If the
+    /// thread cannot start, returns that of `failed`.
+    fn in_thread(
+        &self,
+        work: impl FnOnce() -> ScreenEvent + Send + 'static,
+        failed: fn(String) -> ScreenEvent,
+    ) -> Option<ScreenEvent> {
         let events = self.events.clone();
-        let done = move |found| _ = events.send(ScreenEvent::Scenes(found));
-        run_in_thread(move || FoundScenes::of(&directory), FoundScenes::failed, done)
+        let work = move || {
+            let done = catch_unwind(AssertUnwindSafe(work));
+            // Sending fails only if the program is about to end.
+            _ = events.send(done.unwrap_or_else(|_| failed("internal error".into())));
+        };
+        let started = std::thread::Builder::new().name(FILES_NAME.into()).spawn(work);
+        started.err().map(|error| failed(error.to_string()))
     }
 }
 

@@ -11,9 +11,9 @@ use std::time::Duration;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use vte::{Params, Parser, Perform};
 
-use super::events::{INTERRUPT, ScreenEvent};
+use super::events::ScreenEvent;
 use super::ground::Ground;
-use super::terminal;
+use super::terminal::{self, INTERRUPT};
 
 const CTRL_C: u8 = 3;
 const ESCAPE: u8 = 0x1b;
@@ -35,8 +35,8 @@ pub fn read_keys(to: Sender<ScreenEvent>) -> Result<()> {
         loop {
             let event = input.next().unwrap_or(ScreenEvent::InputClosed);
             let last = event == ScreenEvent::InputClosed;
-            if [INTERRUPT, KeyCode::Char('q').into()].map(ScreenEvent::Key).contains(&event) {
-                terminal::hurry();
+            if let ScreenEvent::Key(key) = &event {
+                terminal::hear(key);
             }
             if to.send(event).is_err() || last {
                 return;

@@ -215,6 +215,7 @@ fn show<B: Backend>(
     look(app, engine);
     let size = terminal.size()?;
     app.layout.size = (size.width, size.height);
+    host.typing(lookup(app.keyboard(), Chord::from('q')).is_none());
     terminal.draw(|frame| panels::draw(frame, app))?;
     engine.drawn();
     // A screen that is too small shows only a note about its size, and no message.
@@ -241,66 +242,46 @@ fn handle(event: ScreenEvent, app: &mut App, host: &mut dyn Host) -> Reaction {
     match event {
         ScreenEvent::Key(key) => {
             let effect = app.key(&key);
-            take(effect, app, host)
+            return take(effect, app, host);
         }
-        ScreenEvent::Mouse(event) => match app.mouse(&event) {
-            None => Reaction::Draw(Due::Later),
-            Some(effect) => take(effect, app, host),
-        },
-        ScreenEvent::Resize => Reaction::Draw(Due::Now),
-        ScreenEvent::Ground(ground) => {
-            app.appearance.use_ground(ground);
-            Reaction::Draw(Due::Now)
+        ScreenEvent::Mouse(event) => {
+            let effect = app.mouse(&event);
+            return effect.map_or(Reaction::Draw(Due::Later), |effect| take(effect, app, host));
         }
-        ScreenEvent::Pasted(text) => {
-            app.paste(&text);
-            Reaction::Draw(Due::Now)
-        }
-        ScreenEvent::Written(result) => {
-            written(result, app, host);
-            Reaction::Draw(Due::Now)
-        }
-        ScreenEvent::Scenes(found) => {
-            app.scenes_found(found);
-            Reaction::Draw(Due::Now)
-        }
-        ScreenEvent::Fresh => Reaction::Look,
-        ScreenEvent::Signal(number) => Reaction::Exit(Exit::Signal(number)),
-        ScreenEvent::Suspend => suspended(app, host.suspend(false)),
-        ScreenEvent::Continued => resumed(host.resume()),
-        ScreenEvent::InputClosed => Reaction::Exit(Exit::Signal(HANGUP)),
+        ScreenEvent::Fresh => return Reaction::Look,
+        ScreenEvent::Signal(number) => return Reaction::Exit(Exit::Signal(number)),
+        ScreenEvent::InputClosed => return Reaction::Exit(Exit::Signal(HANGUP)),
+        ScreenEvent::Suspend => return suspended(app, host.suspend(false)),
+        ScreenEvent::Continued => return resumed(host.resume()),
+        ScreenEvent::Resize => {}
+        ScreenEvent::Ground(ground) => app.appearance.use_ground(ground),
+        ScreenEvent::Pasted(text) => app.paste(&text),
+        ScreenEvent::Written(result) => written(result, app, host),
+        ScreenEvent::Scenes(found) => app.scenes_found(found),
     }
+    Reaction::Draw(Due::Now)
 }
 
 /// Carries out the effect of a key or a click on the host.
 fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
-    match effect {
-        Effect::None => Reaction::Draw(Due::Now),
-        Effect::Quit => Reaction::Quit,
-        Effect::Suspend => suspended(app, host.suspend(true)),
-        Effect::Redraw => Reaction::Redraw,
+    let answer = match effect {
+        Effect::Quit => return Reaction::Quit,
+        Effect::Suspend => return suspended(app, host.suspend(true)),
+        Effect::Redraw => return Reaction::Redraw,
+        Effect::None => None,
         Effect::Mouse(on) => {
             host.mouse(on);
-            Reaction::Draw(Due::Now)
+            None
         }
         Effect::Copy(text) => {
             // If the terminal refuses OSC 52, the text can still be copied from the status line.
             let _ = host.copy(&text);
-            Reaction::Draw(Due::Now)
+            None
         }
-        Effect::Write(job) => {
-            if let Some(result) = host.write(job) {
-                written(result, app, host);
-            }
-            Reaction::Draw(Due::Now)
-        }
-        Effect::FindScenes(directory) => {
-            if let Some(found) = host.find_scenes(directory) {
-                app.scenes_found(found);
-            }
-            Reaction::Draw(Due::Now)
-        }
-    }
+        Effect::Write(job) => host.write(job),
+        Effect::FindScenes(directory) => host.find_scenes(directory),
+    };
+    answer.map_or(Reaction::Draw(Due::Now), |answer| handle(answer, app, host))
 }
 
 /// Handles the result of a write. If no frame shows an error, it is printed on exit.

@@ -9,7 +9,9 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
 use crossterm::cursor::{Hide, Show};
-use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
+use crossterm::event::{
+    DisableBracketedPaste, EnableBracketedPaste, KeyCode, KeyEvent, KeyModifiers,
+};
 use crossterm::queue;
 use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{
@@ -24,6 +26,9 @@ use crate::tui::encode::write_cells;
 use crate::tui::ending::ended_by;
 use crate::tui::tty::Tty;
 
+/// Ctrl-C.
+pub const INTERRUPT: KeyEvent = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
+
 /// The terminal, opened on first use.
 static TTY: OnceLock<Tty> = OnceLock::new();
 /// Whether the terminal is set up, at least in part, and must be restored.
@@ -32,6 +37,8 @@ static HELD: AtomicBool = AtomicBool::new(false);
 static TORN: AtomicBool = AtomicBool::new(false);
 /// Whether a key that quits has come since the last write began.
 static QUITS: AtomicBool = AtomicBool::new(false);
+/// Whether `q` is a letter of a text that is being typed.
+static TYPING: AtomicBool = AtomicBool::new(false);
 /// Whether the explorer wants mouse reports of the terminal.
 static MOUSE: AtomicBool = AtomicBool::new(false);
 
@@ -192,8 +199,7 @@ pub fn regain() -> Result<(), Error> {
 pub fn write(bytes: &[u8]) -> Result<(), Error> {
     let began = Instant::now();
     QUITS.store(false, SeqCst);
-    let patience = || if QUITS.load(SeqCst) { AT_ONCE } else { STUCK };
-    let sent = tty()?.send(bytes, |idle| idle >= patience() || ended_by().is_some())?;
+    let sent = tty()?.send(bytes, |idle| is_stuck(idle) || ended_by().is_some())?;
     SENT.fetch_add(sent as u64, SeqCst);
     if began.elapsed() > AT_ONCE {
         SLOW.store(true, SeqCst);
@@ -204,9 +210,21 @@ pub fn write(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Records that a key that quits has come: no frame keeps it waiting.
-pub fn hurry() {
-    QUITS.store(true, SeqCst);
+/// Returns whether a terminal that has accepted nothing for this long is not waited for.
+fn is_stuck(idle: Duration) -> bool {
+    idle >= if QUITS.load(SeqCst) { AT_ONCE } else { STUCK }
+}
+
+/// Says whether `q` is typed into a text.
+pub fn set_typing(typing: bool) {
+    TYPING.store(typing, SeqCst);
+}
+
+/// Takes note of a key that has come, before it is handled: no frame keeps one that quits waiting.
+pub fn hear(key: &KeyEvent) {
+    if *key == INTERRUPT || (key.code == KeyCode::Char('q') && !TYPING.load(SeqCst)) {
+        QUITS.store(true, SeqCst);
+    }
 }
 
 /// Returns whether a frame was abandoned since the last call; then the whole screen must be drawn
@@ -355,5 +373,16 @@ mod tests {
         assert_eq!(bounded((u16::MAX, 20)), Size::new(1000, 20));
         assert_eq!(bounded((0, 0)), Size::new(80, 24));
         assert_eq!(bounded((0, 30)), Size::new(80, 24));
+    }
+
+    #[test]
+    fn only_a_key_that_quits_shortens_the_wait_for_a_stuck_terminal() {
+        let q = KeyCode::Char('q').into();
+        for (key, typing, short) in [(q, true, false), (INTERRUPT, true, true), (q, false, true)] {
+            QUITS.store(false, SeqCst);
+            set_typing(typing);
+            hear(&key);
+            assert!(is_stuck(STUCK) && is_stuck(AT_ONCE) == short, "{key:?} {typing}");
+        }
     }
 }

@@ -6,9 +6,9 @@ use std::io::Result;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use rubscope::tui::Line;
 use rubscope::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
-use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
+use rubscope::tui::events::ScreenEvent;
+use rubscope::tui::files::{FileJob, FoundScenes};
 use rubscope::tui::host::Host;
 use rubscope::tui::worker::Playback;
 
@@ -26,22 +26,11 @@ impl Host for NoHost {
     fn copy(&mut self, _: &str) -> Result<()> {
         Ok(())
     }
-    fn write(&mut self, job: FileJob) -> Option<FileResult> {
-        Some(job.run())
+    fn write(&mut self, job: FileJob) -> Option<ScreenEvent> {
+        Some(ScreenEvent::Written(job.run()))
     }
-    fn unseen(&mut self, _: Option<String>) {}
-    fn line(&self) -> Line {
-        Line::Auto
-    }
-    fn sent(&self) -> u64 {
-        0
-    }
-    fn is_slow(&self) -> bool {
-        false
-    }
-    fn mouse(&mut self, _: bool) {}
-    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
-        Some(FoundScenes::of(&directory))
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<ScreenEvent> {
+        Some(ScreenEvent::Scenes(FoundScenes::of(&directory)))
     }
 }
 

@@ -12,7 +12,7 @@ use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FileResult, FoundScenes};
 use rubscope::tui::history::Channel;
 use rubscope::tui::host::Host;
-use rubscope::tui::{App, Exit, Line, Marker, Theme};
+use rubscope::tui::{App, Exit, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::{NoHost, Stepwise};
@@ -123,7 +123,7 @@ impl Host for Slow {
     fn copy(&mut self, _: &str) -> std::io::Result<()> {
         Ok(())
     }
-    fn write(&mut self, _: FileJob) -> Option<FileResult> {
+    fn write(&mut self, _: FileJob) -> Option<ScreenEvent> {
         self.events.send(ScreenEvent::Suspend).unwrap();
         self.events.send(ScreenEvent::Written(self.results.remove(0))).unwrap();
         None
@@ -131,18 +131,8 @@ impl Host for Slow {
     fn unseen(&mut self, reason: Option<String>) {
         self.unseen = reason;
     }
-    fn line(&self) -> Line {
-        Line::Auto
-    }
-    fn sent(&self) -> u64 {
-        0
-    }
-    fn is_slow(&self) -> bool {
-        false
-    }
-    fn mouse(&mut self, _: bool) {}
-    fn find_scenes(&mut self, directory: PathBuf) -> Option<FoundScenes> {
-        Some(FoundScenes::of(&directory))
+    fn find_scenes(&mut self, directory: PathBuf) -> Option<ScreenEvent> {
+        Some(ScreenEvent::Scenes(FoundScenes::of(&directory)))
     }
 }
 
