@@ -11,7 +11,6 @@ use crate::sheet::number::{from_shown, in_shown_unit, rounded, with_typed_unit};
 use crate::tui::axis;
 use crate::tui::field::Field;
 use rubscope_solver::model::Machine;
-use rubscope_solver::scene::units::UnitError;
 use rubscope_solver::scene::{
     Adjustment, Allowed, CheckedScene, ContactLaw, Scene, SceneError, Value, keys,
     keys::{CLEARANCE, Key, Turn},
@@ -258,29 +257,14 @@ impl Knob {
     /// The text is refused, for this reason.
     pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
         let text = text.trim();
-        let refused = |allowed: String| SceneError::refused(self.path, text, allowed);
-        match self.allowed() {
-            Allowed::Real { .. } => {
-                let number = with_typed_unit(text, self.key.quantity());
-                let read = self.key.quantity().read(&number);
-                let finite = |x: f64| x.is_finite().then_some(x).ok_or(UnitError::NoNumber);
-                read.and_then(finite).map(Value::Real).map_err(|why| match why {
-                    UnitError::NoNumber => {
-                        refused("a number, such as 500, 2.5e-7, 20k or 50u".into())
-                    }
-                    why => SceneError::Unit { key: self.path.into(), value: text.into(), why },
-                })
-            }
-            Allowed::Whole { .. } => {
-                text.parse().map(Value::Whole).map_err(|_| refused("a whole number".into()))
-            }
-            Allowed::OneOf(words) => {
-                let found = words.iter().find(|word| !text.is_empty() && word.starts_with(text));
-                found
-                    .map(|word| Value::Text((*word).to_string()))
-                    .ok_or_else(|| refused(format!("one of {}", words.join(", "))))
-            }
-            _ => Err(refused("a value".into())),
+        let refused = || SceneError::refused(self.path, text, self.allowed().to_string());
+        if let Allowed::OneOf(words) = self.allowed() {
+            let found = words.iter().find(|word| !text.is_empty() && word.starts_with(text));
+            return found.map(|word| Value::Text((*word).to_string())).ok_or_else(refused);
+        }
+        match self.key.parse(&with_typed_unit(text, self.key.quantity()))? {
+            Value::Real(x) if !x.is_finite() => Err(refused()),
+            value => Ok(value),
         }
     }
 

@@ -1,12 +1,11 @@
 //! Finds the knob that typed words name, and rates the match.
 
 use super::knob::Knob;
-use super::table::KNOBS;
-use crate::sheet::number::{exact, rounded};
+use super::table::{KNOBS, knob_of};
 use crate::tui::appearance::Appearance;
 use crate::tui::raster::Marker;
 use crate::tui::theme::Theme;
-use rubscope_solver::scene::{Allowed, SceneError, keys};
+use rubscope_solver::scene::{Allowed, SceneError, Value, keys};
 
 /// Quality of a match, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -80,6 +79,16 @@ pub fn called(typed: &str) -> Option<usize> {
         .or_else(|| place(Fit::Symbol, |knob| knob.name() != knob.label))
 }
 
+/// Returns the value of an error, which is in the unit of its key, as the knob of the key shows it.
+fn told(key: &str, value: &str) -> String {
+    let real = |knob: &&Knob| matches!(knob.allowed(), Allowed::Real { .. });
+    let shown = knob_of(key).filter(real).and_then(|knob| {
+        let number = value.strip_suffix(knob.unit()).unwrap_or(value).trim_end().parse();
+        Some(knob.shown(&Value::Real(number.ok()?)))
+    });
+    shown.unwrap_or_else(|| value.to_string())
+}
+
 /// Spells a text in ASCII.
 pub fn plain(text: &str) -> String {
     Appearance::new(Theme::Mono, Marker::Ascii).spell(text)
@@ -98,14 +107,11 @@ impl Knob {
         let own = key == self.path;
         // False if the error comes from `parse` itself: the text is not a value at all.
         let reads = self.parse(value).err().as_ref() != Some(error);
+        let shown = told(key, value);
         if !own || (reads && *allowed != self.allowed().to_string()) {
             let (key, allowed) = (words(key), words(allowed));
-            return format!("{key}: {value} is not possible; allowed is {allowed}");
+            return format!("{key}: {shown} is not possible; allowed is {allowed}");
         }
-        let shown = match (value.parse::<f64>(), self.bounds_unit()) {
-            (Ok(x), (factor, _)) if factor != 1.0 => exact(rounded(factor * x, 9)),
-            _ => value.clone(),
-        };
         let why = match self.allowed() {
             _ if reads => "is not possible",
             Allowed::OneOf(_) => "is unknown",

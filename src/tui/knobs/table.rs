@@ -32,9 +32,10 @@ impl Knob {
     }
 }
 
-/// Every knob, in the order of the panel. The five that a new user needs come first.
+/// Every knob, in the order of the panel. The five that a new user needs come first. A key with
+/// steps that is not listed goes beyond the paper.
 pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
-    vec![
+    let mut knobs = vec![
         knob(Operation, keys::SPEED).bar(Of(bars::speed)),
         knob(Operation, keys::PULSE).bar(Of(bars::pulse)).usual(1e4).unless(inert::without_time),
         knob(Operation, keys::DIAMETERS).bar(Of(|case| bars::diameters(1.0, case))),
@@ -83,7 +84,14 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
         knob(Start, keys::INITIAL_V_S).bar(Of(bars::velocity)),
         knob(Start, keys::EXCITATION).unless(inert::rigid),
         knob(Start, keys::ENGINE_ORDER).bar(Of(bars::order)).unless(inert::order),
-    ]
+    ];
+    for key in keys::KEYS.iter().filter(|key| key.handle.is_some()) {
+        if !knobs.iter().any(|knob| knob.path == key.path) {
+            knobs.push(knob(Beyond, key.path));
+        }
+    }
+    knobs.sort_by_key(|knob| knob.group as usize);
+    knobs
 });
 
 impl Group {
