@@ -90,7 +90,7 @@ const MOST_MOVES: usize = 1000;
 /// twice when an order replaces an older one.
 #[derive(Clone, Debug, Default)]
 pub struct Moves {
-    /// Number of the last move that was made.
+    /// Number of the last move that was made, or replaced.
     made: u64,
     waiting: Vec<Move>,
 }
@@ -105,7 +105,11 @@ impl PartialEq for Moves {
 impl Moves {
     /// Requests a move; returns its number.
     pub fn push(&mut self, to: Move) -> u64 {
-        if self.waiting.len() < MOST_MOVES || matches!(to, Move::To(_)) {
+        if matches!(to, Move::To(_)) {
+            self.made = self.last();
+            self.waiting.clear();
+        }
+        if self.waiting.len() < MOST_MOVES {
             self.waiting.push(to);
         }
         self.last()
@@ -136,9 +140,10 @@ impl Moves {
         self.made + self.waiting.len() as u64
     }
 
-    /// Returns the moves with their numbers.
-    pub fn numbered(&self) -> impl Iterator<Item = (u64, Move)> + '_ {
-        (self.made + 1..).zip(self.waiting.iter().copied())
+    /// Returns the first move after the one with the number `made`, and its number.
+    pub fn after(&self, made: u64) -> Option<(u64, Move)> {
+        let mut numbered = (self.made + 1..).zip(self.waiting.iter().copied());
+        numbered.find(|(number, _)| *number > made)
     }
 }
 

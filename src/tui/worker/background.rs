@@ -13,15 +13,6 @@ use rubscope_solver::motion::GoOn;
 /// Name of the threads that compute, by which the panic hook recognises them.
 pub const WORKER_NAME: &str = "rubscope-worker";
 
-/// A running computation that sends results one by one.
-#[derive(Debug)]
-pub struct Background<T> {
-    /// Where the results arrive; `None` once no more will come.
-    results: Option<Receiver<T>>,
-    /// Whether this handle was dropped, which tells the thread to stop.
-    dropped: Arc<AtomicBool>,
-}
-
 /// Largest number of threads for one computation.
 const MOST_THREADS: usize = 16;
 
@@ -38,40 +29,55 @@ pub fn on_spare_cores<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     }
 }
 
-impl<T: Send + 'static> Background<T> {
-    /// Starts `work` in a thread. It sends results and must poll the given `GoOn`, which turns
-    /// false when the computation is dropped.
-    pub fn start(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
+/// The computation of a result, at once or in a thread; the latest value that the thread sends is
+/// the result.
+#[derive(Debug)]
+pub struct Job<T> {
+    /// Where the results arrive; `None` once no more will come.
+    coming: Option<Receiver<T>>,
+    /// Whether this handle was dropped, which tells the thread to stop.
+    dropped: Arc<AtomicBool>,
+    /// The latest result; `None` before the first.
+    pub found: Option<Arc<T>>,
+}
+
+impl<T: Send + 'static> Job<T> {
+    /// Creates the job of a result that is known.
+    pub fn done(found: T) -> Self {
+        Self { coming: None, dropped: Arc::default(), found: Some(Arc::new(found)) }
+    }
+
+    /// Starts `work` in a thread. It sends results, which fails only if the job was dropped, and
+    /// must poll the given `GoOn`, which then turns false.
+    pub fn by(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
         let (sender, results) = channel();
         let dropped = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&dropped);
         let thread = std::thread::Builder::new().name(WORKER_NAME.to_string());
         let started =
             thread.spawn(move || work(&sender, &|| !flag.load(Ordering::Relaxed))).is_ok();
-        Self { results: started.then_some(results), dropped }
+        Self { coming: started.then_some(results), dropped, found: None }
     }
 
-    /// Returns the next result; waits for it up to `patience`. `None` if none arrives in that time,
-    /// or no more will come.
-    pub fn receive(&mut self, patience: Duration) -> Option<T> {
-        match self.results.as_ref()?.recv_timeout(patience) {
-            Ok(result) => Some(result),
-            Err(RecvTimeoutError::Timeout) => None,
-            // The work is complete, or the thread ended early; results already received stay valid.
-            Err(RecvTimeoutError::Disconnected) => {
-                self.results = None;
-                None
+    /// Collects the results of the thread; waits for one up to `patience`.
+    pub fn work(&mut self, mut patience: Duration) {
+        while let Some(coming) = &self.coming {
+            match coming.recv_timeout(patience) {
+                Ok(found) => (self.found, patience) = (Some(Arc::new(found)), Duration::ZERO),
+                Err(RecvTimeoutError::Timeout) => return,
+                // The work is complete, or the thread ended early; what was found stays valid.
+                Err(RecvTimeoutError::Disconnected) => self.coming = None,
             }
         }
     }
 
     /// Returns whether no more results will come.
     pub fn is_done(&self) -> bool {
-        self.results.is_none()
+        self.coming.is_none()
     }
 }
 
-impl<T> Drop for Background<T> {
+impl<T> Drop for Job<T> {
     fn drop(&mut self) {
         self.dropped.store(true, Ordering::Relaxed);
     }
@@ -82,15 +88,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_come_one_by_one_and_a_dropped_computation_ends() {
-        let mut job = Background::start(|to, _| (0..3).for_each(|k| to.send(k).unwrap()));
-        let mut seen = Vec::new();
+    fn the_latest_result_stays_and_a_dropped_computation_ends() {
+        let mut job = Job::by(|to, _| (0..3).for_each(|k| to.send(k).unwrap()));
         while !job.is_done() {
-            seen.extend(job.receive(Duration::from_millis(20)));
+            job.work(Duration::from_millis(20));
         }
-        assert_eq!(seen, [0, 1, 2]);
+        assert_eq!(job.found.as_deref(), Some(&2));
         let (done, ended) = channel();
-        let endless: Background<()> = Background::start(move |_, go_on| {
+        let endless: Job<()> = Job::by(move |_, go_on| {
             while go_on() {
                 std::thread::yield_now();
             }

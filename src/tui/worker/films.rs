@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::tui::engine::{Answer, FORECAST_LIMIT, Order, Pace, Results, SLICE, Sensitive};
 use crate::tui::film::{Film, FilmPlan};
-use crate::tui::worker::background::{Background, on_spare_cores};
+use crate::tui::worker::background::{Job, on_spare_cores};
 use crate::tui::worker::studies::Studies;
 use rubscope_solver::motion::{Certainty, Scripted, Verdict, VerdictReached, certainty};
 use rubscope_solver::scene::CheckedScene;
@@ -26,7 +26,7 @@ pub struct Films {
     /// Outcome of the sensitivity check; `None` until it is complete or given up.
     sensitive: Option<Sensitive>,
     /// The sensitivity check; `None` before it starts, which is after the run.
-    sensitivity: Option<Background<Certainty>>,
+    sensitivity: Option<Job<Certainty>>,
     /// The studies for the open views.
     pub studies: Studies,
     answers: Answers,
@@ -132,8 +132,9 @@ impl Films {
             self.sensitivity = self.sensitivity.take().or_else(begin);
             self.sensitive = match &mut self.sensitivity {
                 Some(job) => {
-                    let known = job.receive(SLICE);
-                    known.map(Sensitive::Known).or(job.is_done().then_some(Sensitive::GivenUp))
+                    job.work(SLICE);
+                    let known = job.found.as_deref().copied().map(Sensitive::Known);
+                    known.or(job.is_done().then_some(Sensitive::GivenUp))
                 }
                 // The run itself was given up.
                 None => Some(Sensitive::GivenUp),
@@ -182,9 +183,9 @@ fn replanned(film: Option<Film>, plan: Option<FilmPlan>) -> Option<Film> {
 
 /// Starts the sensitivity check in the background: whether a tiny change of the pulse, the speed or
 /// the motion changes the verdict. It sends nothing if it exceeds the time limit.
-fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Background<Certainty> {
+fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Job<Certainty> {
     let scene = scene.clone();
-    Background::start(move |to, go_on| {
+    Job::by(move |to, go_on| {
         let began = Instant::now();
         let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
         let found = on_spare_cores(|| certainty(&scene, reached, true, &go_on));
@@ -204,7 +205,7 @@ pub struct Answers {
     /// The latest verdict, with its scene; `None` before the first.
     latest: Option<Arc<Answer>>,
     /// The older run and its scene; `None` if none is being finished.
-    older: Option<(CheckedScene, Background<Verdict>)>,
+    older: Option<(CheckedScene, Job<Verdict>)>,
 }
 
 impl Answers {
@@ -214,7 +215,7 @@ impl Answers {
         if self.older.is_some() || run.verdict().is_some() {
             return;
         }
-        let older = Background::start(move |to, go_on| {
+        let older = Job::by(move |to, go_on| {
             while run.verdict().is_none() && !run.is_done() && go_on() {
                 run.compute();
             }
@@ -227,7 +228,8 @@ impl Answers {
     /// Records the verdict of the background run once it is known.
     fn look(&mut self) {
         if let Some((scene, mut older)) = self.older.take() {
-            match older.receive(Duration::ZERO) {
+            older.work(Duration::ZERO);
+            match older.found.as_deref().copied() {
                 None if !older.is_done() => self.older = Some((scene, older)),
                 verdict => self.note(&scene, verdict),
             }

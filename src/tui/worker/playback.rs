@@ -1,6 +1,5 @@
 //! The engine without clock or thread: it applies orders, plays the film, and makes snapshots.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -36,10 +35,6 @@ pub struct Playback {
     going: Option<f64>,
     /// Whether the head is on the instant to be shown.
     is_there: bool,
-    /// Steps and jumps to make, with their numbers.
-    moves: VecDeque<(u64, Move)>,
-    /// Number of the last move received.
-    received: u64,
     /// Number of the last move made.
     moved: u64,
     /// Number of the last jump, and the change of contact that it met; `None` if it met none.
@@ -66,8 +61,6 @@ impl Playback {
             t: 0.0,
             going: None,
             is_there: order.cursor_s.is_none(),
-            moves: VecDeque::new(),
-            received: 0,
             moved: 0,
             met: (0, None),
             limit: Limit::None,
@@ -77,7 +70,6 @@ impl Playback {
             films,
             order,
         };
-        playback.receive_moves();
         playback.make_moves();
         playback
     }
@@ -103,38 +95,24 @@ impl Playback {
             self.reached = Reached::default();
         }
         self.is_there &= order.cursor_s == before.cursor_s;
-        self.receive_moves();
         self.make_moves();
-    }
-
-    fn receive_moves(&mut self) {
-        for (number, to) in self.order.moves.numbered() {
-            if number <= self.received {
-                continue;
-            }
-            self.received = number;
-            match to {
-                Move::To(t) => {
-                    self.moves.clear();
-                    self.going = Some(t);
-                }
-                to => self.moves.push_back((number, to)),
-            }
-        }
     }
 
     /// Makes the moves that can be made now, but at most one jump.
     fn make_moves(&mut self) {
-        while self.arrive() {
-            let Some((number, to)) = self.moves.pop_front() else {
-                self.moved = self.received;
-                return;
-            };
-            self.moved = number;
-            if to == Move::NextChange {
-                return self.jump(number);
+        loop {
+            let next = self.order.moves.after(self.moved);
+            if let Some((_, Move::To(t))) = next {
+                self.going = Some(t);
             }
-            self.step();
+            let arrived = self.arrive();
+            let Some((number, to)) = next.filter(|_| arrived) else { return };
+            self.moved = number;
+            match to {
+                Move::To(_) => {}
+                Move::Step => self.step(),
+                Move::NextChange => return self.jump(number),
+            }
         }
     }
 
@@ -262,7 +240,7 @@ impl Playback {
     pub fn is_computing(&self) -> bool {
         self.going.is_some()
             || !self.is_there
-            || !self.moves.is_empty()
+            || self.order.moves.after(self.moved).is_some()
             || self.is_starved()
             || self.films.is_computing(&self.order)
     }

@@ -1,9 +1,9 @@
-//! The worker thread: one slot for the latest order, one for the latest snapshot. Neither side
-//! waits for the other: a newer order replaces an older one, and a newer snapshot one that was not
-//! taken.
+//! The worker thread: it receives what the screen sends, of which only the latest order counts, and
+//! has one place for the latest snapshot. Neither side waits for the other.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::background::WORKER_NAME;
@@ -13,32 +13,27 @@ use crate::tui::engine::{Engine, Order, Snapshot, Waker};
 /// Time between two ticks while the motion plays.
 const TICK: Duration = Duration::from_millis(33);
 
-#[derive(Default)]
-struct Slots {
-    order: Option<Order>,
-    snapshot: Option<Snapshot>,
-    /// Whether a frame was drawn since the thread last checked.
-    drawn: bool,
-    quit: bool,
+/// What the screen sends.
+enum Message {
+    /// What to show now.
+    Order(Box<Order>),
+    /// A frame was drawn.
+    Drawn,
 }
 
-#[derive(Default)]
-struct Shared {
-    slots: Mutex<Slots>,
-    wake: Condvar,
-}
+/// The latest snapshot; `None` once it was taken.
+type Latest = Arc<Mutex<Option<Snapshot>>>;
 
-impl Shared {
-    /// Locks the slots. A panic cannot leave them half-written: each is replaced as a whole, so a
-    /// poisoned lock is safe to use.
-    fn lock(&self) -> MutexGuard<'_, Slots> {
-        self.slots.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// Replaces the latest snapshot; returns the one before if it was not taken. A panic cannot leave it
+/// half-written, so a poisoned lock is safe to use.
+fn exchange(latest: &Latest, new: Option<Snapshot>) -> Option<Snapshot> {
+    std::mem::replace(&mut *latest.lock().unwrap_or_else(PoisonError::into_inner), new)
 }
 
 /// Handle of the thread; dropping it ends the thread at its next tick.
 pub struct Worker {
-    shared: Arc<Shared>,
+    messages: Sender<Message>,
+    latest: Latest,
 }
 
 impl Worker {
@@ -47,50 +42,48 @@ impl Worker {
     /// # Errors
     /// Fails if the system cannot start a thread.
     pub fn spawn(wake: Waker) -> std::io::Result<Self> {
-        let shared = Arc::new(Shared::default());
-        let theirs = Arc::clone(&shared);
+        let ((messages, sent), latest) = (channel(), Latest::default());
+        let theirs = Arc::clone(&latest);
         std::thread::Builder::new()
             .name(WORKER_NAME.to_string())
-            .spawn(move || run(&theirs, &wake))?;
-        Ok(Self { shared })
+            .spawn(move || run(&sent, &theirs, &wake))?;
+        Ok(Self { messages, latest })
     }
 }
 
 impl Engine for Worker {
     fn order(&mut self, order: &Order) {
-        self.shared.lock().order = Some(order.clone());
-        self.shared.wake.notify_one();
+        // Sending fails only if the thread has ended.
+        _ = self.messages.send(Message::Order(order.clone().into()));
     }
 
     fn take(&mut self) -> Option<Snapshot> {
-        self.shared.lock().snapshot.take()
+        exchange(&self.latest, None)
     }
 
     fn drawn(&mut self) {
-        self.shared.lock().drawn = true;
+        _ = self.messages.send(Message::Drawn);
     }
 }
 
-impl Drop for Worker {
-    fn drop(&mut self) {
-        self.shared.lock().quit = true;
-        self.shared.wake.notify_one();
-    }
-}
-
-fn run(shared: &Shared, wake: &Waker) {
+fn run(sent: &Receiver<Message>, latest: &Latest, wake: &Waker) {
+    let publish = |snapshot: Snapshot| {
+        if exchange(latest, Some(snapshot)).is_none() {
+            wake();
+        }
+    };
     let mut playback: Option<Playback> = None;
     let mut playing = None;
     loop {
         let busy = playback.as_ref().is_some_and(Playback::is_computing);
-        let Some((order, drawn)) = next_order(shared, busy, playing.is_some()) else { return };
+        let Some((order, drawn)) = receive(sent, busy, playing.is_some()) else { return };
         let tick = catch_panic(|| {
             let fresh = order.is_some();
             if let Some(order) = order {
                 playing = order.playing.then(|| playing.unwrap_or_else(Instant::now));
                 match &mut playback {
                     Some(playback) => playback.apply(&order),
-                    None => playback = Some(Playback::new(order)),
+                    None => playback = Some(Playback::new(*order)),
                 }
             }
             let playback = playback.as_mut()?;
@@ -112,45 +105,38 @@ fn run(shared: &Shared, wake: &Waker) {
             moved.then(|| playback.snapshot())
         });
         match tick {
-            Ok(None) => {}
-            Ok(Some(snapshot)) => publish(shared, snapshot, wake),
+            Ok(snapshot) => _ = snapshot.map(publish),
             Err(trouble) => {
-                playback = None;
-                playing = None;
-                publish(shared, Snapshot { trouble: Some(trouble), ..Snapshot::default() }, wake);
+                (playback, playing) = (None, None);
+                publish(Snapshot { trouble: Some(trouble), ..Snapshot::default() });
             }
         }
     }
 }
 
-/// Returns the next order, if any, and whether a frame was drawn; waits if there is nothing to do.
-/// `None` ends the thread.
-fn next_order(shared: &Shared, busy: bool, playing: bool) -> Option<(Option<Order>, bool)> {
-    let mut slots = shared.lock();
-    if slots.order.is_none() && !slots.quit && !busy {
-        slots = if playing {
-            shared.wake.wait_timeout(slots, TICK).unwrap_or_else(PoisonError::into_inner).0
-        } else {
-            shared.wake.wait(slots).unwrap_or_else(PoisonError::into_inner)
-        };
-    }
-    (!slots.quit).then(|| (slots.order.take(), std::mem::take(&mut slots.drawn)))
-}
-
-fn publish(shared: &Shared, mut snapshot: Snapshot, wake: &Waker) {
-    let first = {
-        let mut slots = shared.lock();
-        let waiting = slots.snapshot.take();
-        let first = waiting.is_none();
-        if let Some(waiting) = waiting.filter(|waiting| waiting.run == snapshot.run) {
-            snapshot.trouble = snapshot.trouble.or(waiting.trouble);
-        }
-        slots.snapshot = Some(snapshot);
-        first
+/// Receives what was sent: the latest order, if any, and whether a frame was drawn. Waits if there
+/// is nothing to do. `None` ends the thread.
+fn receive(
+    sent: &Receiver<Message>,
+    busy: bool,
+    playing: bool,
+) -> Option<(Option<Box<Order>>, bool)> {
+    let first = match (busy, playing) {
+        (true, _) => sent.recv_timeout(Duration::ZERO),
+        (false, true) => sent.recv_timeout(TICK),
+        (false, false) => sent.recv().map_err(RecvTimeoutError::from),
     };
-    if first {
-        wake();
+    if matches!(first, Err(RecvTimeoutError::Disconnected)) {
+        return None;
     }
+    let (mut latest, mut drawn) = (None, false);
+    for message in first.into_iter().chain(sent.try_iter()) {
+        match message {
+            Message::Order(order) => latest = Some(order),
+            Message::Drawn => drawn = true,
+        }
+    }
+    Some((latest, drawn))
 }
 
 /// Runs `work` and turns a panic into one line of text.

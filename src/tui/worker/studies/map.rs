@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
-use super::study::{Given, Job, Study};
+use super::study::{Given, Study};
 use crate::tui::engine::FORECAST_LIMIT;
 use crate::tui::views::id::ViewId;
 use crate::tui::views::map::plan::{CellRun, LiveMap, coarse_first};
-use crate::tui::worker::background::on_spare_cores;
+use crate::tui::worker::background::{Job, on_spare_cores};
 use rubscope_solver::motion::LAST_PART;
 use rubscope_solver::motion::{GoOn, Motion, verdict_of};
 use rubscope_solver::study::MapPlan;
@@ -150,7 +150,7 @@ mod tests {
             while !job.is_done() && job.found.is_none() {
                 job.work(Duration::from_millis(5));
             }
-            live = job.found;
+            live = job.found.take();
         }
         let map = &live.unwrap().map;
         assert_eq!(map.runs, 35);

@@ -8,7 +8,7 @@ mod study;
 use std::sync::Arc;
 use std::time::Duration;
 
-use study::{Given, Job, Study, StudySlot, Work};
+use study::{Given, Study, StudySlot, Work};
 
 use crate::tui::engine::{Found, Order, SLICE, Working};
 use crate::tui::film::Film;
@@ -17,7 +17,7 @@ use crate::tui::views::margins::live::LiveMargins;
 use crate::tui::views::spectrum::lines::Spectrum;
 use crate::tui::views::steady::coincidence_curves::CoincidenceCurves;
 use crate::tui::views::steady::locked_curves::LockedCurves;
-use crate::tui::worker::background::on_spare_cores;
+use crate::tui::worker::background::{Job, on_spare_cores};
 use rubscope_solver::scene::{CheckedScene, Scene};
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
@@ -181,15 +181,21 @@ impl Study for MarginsStudy {
         order.shows(Self::VIEW).then(|| (order.scene.clone(), order.range))
     }
 
-    fn begin((scene, range): &Self::Key, _: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+    fn begin(
+        (scene, range): &Self::Key,
+        _: &Given,
+        before: Option<&Self::Found>,
+    ) -> Job<Self::Found> {
         let (scene, range) = (scene.clone(), *range);
+        // Before the first margins no knob was turned.
+        let rest = before.map_or(Duration::ZERO, |_| REST);
         Job::by(move |to, go_on| {
             let mut margins = Margins::of(&scene);
             let send = |margins: &Margins, survey: &Option<Arc<Survey>>| {
                 _ = to.send(LiveMargins { margins: margins.clone(), survey: survey.clone() });
             };
             send(&margins, &None);
-            std::thread::sleep(REST);
+            std::thread::sleep(rest);
             if !go_on() {
                 return;
             }

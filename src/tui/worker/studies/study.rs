@@ -2,14 +2,12 @@
 
 use std::fmt;
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
 use std::time::{Duration, Instant};
 
 use crate::tui::engine::{Order, Working};
 use crate::tui::film::Film;
 use crate::tui::views::id::ViewId;
-use crate::tui::worker::background::Background;
-use rubscope_solver::motion::GoOn;
+use crate::tui::worker::background::Job;
 use rubscope_solver::study::MapPlan;
 
 /// Wall-clock time after which the progress of a study is shown.
@@ -59,44 +57,6 @@ pub trait Study {
     }
 }
 
-/// The computation of a result, at once or in a background thread; the latest value that the thread
-/// sends is the result. Dropping it ends the thread.
-#[derive(Debug)]
-pub struct Job<T> {
-    coming: Option<Background<T>>,
-    pub(super) found: Option<Arc<T>>,
-}
-
-impl<T: Send + 'static> Job<T> {
-    /// Creates the job of a result that is known.
-    pub fn done(found: T) -> Self {
-        Self { coming: None, found: Some(Arc::new(found)) }
-    }
-
-    /// Starts the thread. Sending fails only if the job was dropped.
-    pub fn by(work: impl FnOnce(&Sender<T>, GoOn<'_>) + Send + 'static) -> Self {
-        Self { coming: Some(Background::start(work)), found: None }
-    }
-
-    /// Returns whether no more results will come.
-    pub fn is_done(&self) -> bool {
-        self.coming.as_ref().is_none_or(Background::is_done)
-    }
-
-    /// Returns the result if it may replace the previous one: it `may`, or no other comes.
-    fn replaces(&self, may: fn(&T) -> bool) -> Option<&Arc<T>> {
-        self.found.as_ref().filter(|found| self.is_done() || may(found))
-    }
-
-    /// Collects the results of the thread; waits for one up to `patience`.
-    pub fn work(&mut self, mut patience: Duration) {
-        while let Some(found) = self.coming.as_mut().and_then(|coming| coming.receive(patience)) {
-            self.found = Some(Arc::new(found));
-            patience = Duration::ZERO;
-        }
-    }
-}
-
 /// A study, with the result for its previous inputs.
 #[derive(Debug)]
 pub struct StudySlot<S: Study> {
@@ -118,8 +78,13 @@ impl<S: Study> StudySlot<S> {
     /// Ends the job; its result stays if it may.
     fn end(&mut self) {
         let ended = self.study.take().filter(|_| S::STAYS);
-        let found = ended.and_then(|(_, job)| job.replaces(S::replaces).cloned());
+        let found = ended.and_then(|(_, job)| Self::replaces(&job).cloned());
         self.before = found.or(self.before.take());
+    }
+
+    /// Returns the result of a job if it may replace the previous one: it may, or no other comes.
+    fn replaces(job: &Job<S::Found>) -> Option<&Arc<S::Found>> {
+        job.found.as_ref().filter(|found| job.is_done() || S::replaces(found))
     }
 
     fn of(&self, key: &S::Key) -> Option<&Job<S::Found>> {
@@ -132,7 +97,7 @@ impl<S: Study> StudySlot<S> {
             true => self.study.as_ref().map(|(_, job)| job),
             false => self.of(&S::key(given)?),
         };
-        let found = job.and_then(|job| job.replaces(S::replaces)).or(self.before.as_ref());
+        let found = job.and_then(Self::replaces).or(self.before.as_ref());
         found.or_else(|| job?.found.as_ref()).cloned()
     }
 }
