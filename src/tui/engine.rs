@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::film::plan::FilmPlan;
 use super::history::Bin;
-use super::trace::{Mark, Trace};
+use super::trace::Mark;
 use super::views::id::ViewId;
 use super::views::map::plan::{CellRun, LiveMap, MapChoice};
 use super::views::margins::live::LiveMargins;
@@ -197,8 +197,8 @@ pub enum FullRunState {
 /// The run to `solver.end_s`, computed ahead of the playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullRun {
-    /// The coordinates over the run.
-    pub trace: Arc<Trace>,
+    /// The state at the end.
+    pub end: State,
     /// The first changes of contact of the run, in order of time.
     pub marks: Arc<Vec<Mark>>,
     /// The longest hold of a corner that ended during the run, and the rotor speed at its end
@@ -209,8 +209,6 @@ pub struct FullRun {
     pub caught: Option<(f64, bool)>,
     /// What was observed over the last part of the run; `None` if the verdict is proved.
     pub seen: Option<Seen>,
-    /// Whether the casing has not moved.
-    pub still: bool,
     /// Verdict of the run.
     pub verdict: Verdict,
     /// Simulated time at which the contact at the end began \[s\].
@@ -221,8 +219,6 @@ pub struct FullRun {
     pub impacts: u64,
     /// Checks of the solver: penetration, pulls and others.
     pub checks: Checks,
-    /// The solver's message on why the run stopped early; `None` if it reached its end.
-    pub stopped: Option<String>,
     /// Why and when the run stopped early; `None` if it reached its end.
     pub failure: Option<Failure>,
 }

@@ -1,40 +1,9 @@
-//! A run computed ahead of the playback: its coordinates at equal intervals, and the changes of
-//! contact.
+//! The changes of contact of a run.
 
 use rubscope_solver::motion::{ActiveSet, ContactLog};
 
 /// Largest number of contact changes that are kept.
 const MOST_MARKS: usize = 2000;
-
-/// The coordinates `u_c`, `u_s` \[m\], `alpha_c`, `alpha_s` \[rad\] at equal intervals.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Trace {
-    /// Simulated time of the first point \[s\].
-    pub from: f64,
-    /// Simulated time between two points \[s\].
-    pub step: f64,
-    /// The four coordinates at each time, in the order given above.
-    pub points: Vec<[f64; 4]>,
-}
-
-impl Trace {
-    /// Returns the coordinate with index `place` over `[from, to]` as points (time \[s\], value),
-    /// up to one point beyond each end.
-    pub fn between(
-        &self,
-        place: usize,
-        from: f64,
-        to: f64,
-    ) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let index = |t: f64| ((t - self.from) / self.step).floor().max(0.0) as usize;
-        let sound = self.step > 0.0 && to > from;
-        let range = if sound { index(from)..index(to).saturating_add(2) } else { 0..0 };
-        let points = self.points.iter().enumerate().take(range.end).skip(range.start);
-        points.filter_map(move |(k, point)| {
-            Some((self.from + k as f64 * self.step, *point.get(place)?))
-        })
-    }
-}
 
 /// A change of contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -150,8 +150,8 @@ pub struct Play {
     pub(super) jump: Option<u64>,
     /// Whether playback stopped because the run ended, not because the user paused it.
     pub(super) stopped_by_end: bool,
-    /// Page number to which the ranges of the charts were last fitted.
-    pub page: i64,
+    /// Numbers of the film and its page to which the ranges of the charts were last fitted.
+    pub fitted: Option<(u64, i64)>,
 }
 
 /// Settings of playback that undo restores.

@@ -73,7 +73,6 @@ impl Play {
     /// had stopped playback.
     pub fn restart(&mut self, begin_s: f64) {
         self.playing |= std::mem::take(&mut self.stopped_by_end);
-        self.page = 0;
         // A jump requested in the previous run needs no answer.
         self.jump = None;
         self.moves.push(Move::To(begin_s));

@@ -255,7 +255,6 @@ impl App {
         if snapshot.run != self.run.runs {
             return false;
         }
-        let had_forecast = self.full_run().is_some();
         let known = std::mem::take(&mut self.run.latest);
         if snapshot.number != self.run.number {
             snapshot.results = known.results;
@@ -263,26 +262,33 @@ impl App {
         self.play.moves.drop_made(snapshot.moved);
         self.run.latest = Snapshot { trouble: known.trouble, ..snapshot };
         self.fit_to_page();
-        self.fit_to_forecast(!had_forecast);
         self.report_moves();
         self.check_lesson();
         true
     }
 
     /// Grows the ranges to include the page of both contact laws, which share their axes. For a new
-    /// page of the playing motion those of casing and blades may also shrink.
+    /// film, or a new page of the playing motion, those of casing and blades may also shrink; on the
+    /// first page that of the casing not below the clearance.
     fn fit_to_page(&mut self) {
         if !self.run.ranges.follow {
             return;
         }
         let number = self.page_number();
         let is_whole = |page: &PageRecord| page.is_whole && page.page == self.page();
+        let fitted = Some((self.run.number, number));
         let is_new = self.results().page.as_deref().is_some_and(is_whole)
-            && std::mem::replace(&mut self.play.page, number) != number;
+            && std::mem::replace(&mut self.play.fitted, fitted) != fitted;
         let pages = [self.record(), self.recorded(self.results().comparison_page.as_deref())];
         let of =
             |channels| pages.into_iter().filter_map(|bins| extremes(bins, channels)).reduce(wider);
         let [casing, blades, rim] = [CASING, BLADES, RIM].map(of);
+        // Blades that rub at rest have no clearance to include.
+        let clearance = self.machine.clearance().max(0.0);
+        let [casing, rim] = [casing, rim].map(|data| match number {
+            0 => Some(wider(data?, (-clearance, clearance))),
+            _ => data,
+        });
         let most = of([Channel::Amplitude; 2]).map(|(_, most)| most);
         let least = of([Channel::Gap; 2]).map(|(least, _)| least).filter(|_| self.has_lining());
         let (roomiest, usual) = (self.roomiest(), self.usual_reach());
@@ -302,29 +308,6 @@ impl App {
         // be negative.
         let low = least.map_or(ranges.gaps.low, |least| least.min(ranges.gaps.low));
         grow(&mut ranges.gaps, most.map(|most| (low, roomiest + most)));
-    }
-
-    /// Grows the ranges of casing and blades to include the forecast on the page. For a new
-    /// forecast they may also shrink, that of the casing not below the clearance.
-    fn fit_to_forecast(&mut self, is_new: bool) {
-        // Blades that rub at rest have no clearance to include.
-        let clearance = self.machine.clearance().max(0.0);
-        let (from, to) = self.page();
-        let Some(run) = self.full_run().filter(|_| self.run.ranges.follow) else { return };
-        let span = |place: usize| {
-            let values = run.trace.between(place, from, to).map(|(_, value)| (value, value));
-            values.filter(|(value, _)| value.is_finite()).reduce(wider)
-        };
-        let [casing, blades] =
-            [[0, 1], [2, 3]].map(|places| places.into_iter().filter_map(span).reduce(wider));
-        let casing = casing.map(|data| wider(data, (-clearance, clearance)));
-        let Ranges { casing: of_casing, blades: of_blades, .. } = &mut self.run.ranges;
-        for (range, data) in [(of_casing, casing), (of_blades, blades)] {
-            match data {
-                Some((low, high)) if is_new && high > low => range.follow(low, high),
-                data => grow(range, data),
-            }
-        }
     }
 
     /// Sets the status message when a jump is complete or the run has ended.

@@ -107,7 +107,7 @@ impl App {
             failure: run.failure.clone(),
             pulled: run.checks.tensile_steps > 0,
             seen: run.seen,
-            still: run.still,
+            still: run.end.amplitude() == 0.0,
             other: self.results().reference.as_ref().map(|other| other.verdict),
             certainty: self.results().sensitive.known(),
             ..Facts::at(run.verdict, (&self.scene, &self.machine, self.speed()), contacts)

@@ -19,11 +19,7 @@ pub const PER_TURN: f64 = 24.0;
 /// The requested page, and the latest one that was computed.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The latest request: the page (from, to), and the end of its computation \[s\].
-    wanted: Option<((f64, f64), f64)>,
-    /// Whether the requested page is neither complete nor given up.
-    is_due: bool,
-    /// The computation of the requested page; `None` before it begins.
+    /// The latest request; `None` before the first.
     job: Option<PageJob>,
     /// The latest page that was computed, which may be an earlier one, as far as it is computed.
     pub done: Option<Arc<PageRecord>>,
@@ -35,11 +31,10 @@ struct PageJob {
     page: (f64, f64),
     /// End of the computation \[s\].
     until: f64,
-    /// Length of a bin \[s\].
-    bin: f64,
-    /// Time step of the solver \[s\].
-    step: f64,
-    at: Scripted,
+    /// Whether it is neither complete nor given up.
+    is_due: bool,
+    /// The motion; `None` before it begins, and after the end.
+    at: Option<Scripted>,
     /// The bins; `None` before the start of the page.
     recorder: Option<Recorder>,
     wall: Duration,
@@ -49,87 +44,92 @@ impl Page {
     /// Requests a page (from, to) \[s\] up to `end`, the end of the run. Does nothing if this page
     /// was the last one requested.
     pub fn want(&mut self, page: (f64, f64), end: f64) {
-        let wanted = Some((page, page.1.min(end)));
-        if self.wanted != wanted {
-            (self.wanted, self.job, self.is_due) = (wanted, None, true);
+        let until = page.1.min(end);
+        if self.job.as_ref().is_none_or(|job| (job.page, job.until) != (page, until)) {
+            let (at, recorder, wall) = (None, None, Duration::ZERO);
+            self.job = Some(PageJob { page, until, is_due: true, at, recorder, wall });
         }
+    }
+
+    fn due(&self) -> Option<&PageJob> {
+        self.job.as_ref().filter(|job| job.is_due)
     }
 
     /// Returns whether no page is to be computed.
     pub fn is_done(&self) -> bool {
-        !self.is_due
+        self.due().is_none()
     }
 
     /// Returns the start of the page that is to be computed \[s\].
     pub fn due_from(&self) -> Option<f64> {
-        self.wanted.filter(|_| self.is_due).map(|((from, _), _)| from)
+        self.due().map(|job| job.page.0)
+    }
+
+    /// Returns whether the page that is to be computed has begun.
+    pub fn has_begun(&self) -> bool {
+        self.due().is_some_and(|job| job.at.is_some())
     }
 
     /// Advances the page by one slice of wall-clock time; it begins with `from`, a motion at or
     /// before its start, of a scene with the time step `step` \[s\].
     pub fn compute(&mut self, from: Option<Scripted>, step: f64) {
-        if self.job.is_none() {
-            self.job = self.wanted.zip(from).map(|((page, until), at)| {
-                let (bin, wall) = ((page.1 - page.0) / BINS, Duration::ZERO);
-                PageJob { page, until, bin, step, at, recorder: None, wall }
-            });
-        }
-        let Some(job) = &mut self.job else {
-            self.is_due = false;
-            return;
-        };
+        let Some(job) = &mut self.job else { return };
+        job.at = job.at.take().or(from);
         let began = Instant::now();
-        let is_whole = job.go_on(&|| began.elapsed() < SLICE);
+        let is_whole = job.go_on(step, &|| began.elapsed() < SLICE);
         job.wall += began.elapsed();
         if let Some(recorder) = &job.recorder {
-            self.done = Some(Arc::new(job.record(recorder, is_whole)));
+            let bins = interpolated(&recorder.bins(), job.bin(), job.page);
+            self.done = Some(Arc::new(PageRecord { page: job.page, bins, is_whole }));
         }
         if is_whole || job.wall >= FORECAST_LIMIT {
-            (self.job, self.is_due) = (None, false);
+            (job.at, job.recorder, job.is_due) = (None, None, false);
         }
     }
 
     /// Returns the wall-clock time spent on the page being computed; 0 if there is none.
     pub fn wall(&self) -> Duration {
-        self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
+        self.due().map_or(Duration::ZERO, |job| job.wall)
     }
 }
 
 impl PageJob {
-    /// Continues the computation; returns true once the page is complete.
-    fn go_on(&mut self, go_on: GoOn<'_>) -> bool {
+    /// Returns the length of a bin \[s\].
+    fn bin(&self) -> f64 {
+        (self.page.1 - self.page.0) / BINS
+    }
+
+    /// Continues the computation with a time step of `step` seconds; returns true once the page is
+    /// complete, or has no motion to begin with.
+    fn go_on(&mut self, step: f64, go_on: GoOn<'_>) -> bool {
+        let bin = self.bin();
+        let Some(at) = &mut self.at else { return true };
         let Some(recorder) = &mut self.recorder else {
-            let reached = self.at.advance_while(self.page.0, go_on);
+            let reached = at.advance_while(self.page.0, go_on);
             if reached != Ok(false) {
-                let recorder = self.recorder.insert(Recorder::from(&self.at.motion));
+                let recorder = self.recorder.insert(Recorder::from(&at.motion));
                 // If each step fills a bin, close the first one at once: lines are drawn from
                 // sample to sample.
-                let length = if self.step > self.bin { 0.0 } else { self.bin };
-                recorder.record(&mut self.at.motion, length);
+                recorder.record(&mut at.motion, if step > bin { 0.0 } else { bin });
             }
             return false;
         };
-        let sample = sample_length(&self.at.motion, self.page);
+        let sample = sample_length(&at.motion, self.page);
         // A solver with steps stops at the last one before `until`; the next is beyond the page.
-        while self.at.motion.t_s() < self.until {
-            let next = (self.at.motion.t_s() + sample).min(self.until);
-            match next_sample(&mut self.at, next, self.step, go_on) {
+        while at.motion.t_s() < self.until {
+            let next = (at.motion.t_s() + sample).min(self.until);
+            match next_sample(at, next, step, go_on) {
                 Ok(true) => {}
                 Ok(false) => return false,
                 // A failed motion has nothing more to record.
                 Err(_) => return true,
             }
-            recorder.record(&mut self.at.motion, self.bin);
+            recorder.record(&mut at.motion, bin);
             if !go_on() {
                 return false;
             }
         }
         true
-    }
-
-    fn record(&self, recorder: &Recorder, is_whole: bool) -> PageRecord {
-        let bins = interpolated(&recorder.bins(), self.bin, self.page);
-        PageRecord { page: self.page, bins, is_whole }
     }
 }
 

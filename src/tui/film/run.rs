@@ -8,7 +8,7 @@ use super::copies::Copies;
 use super::page::Page;
 use super::plan::FilmPlan;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, SLICE};
-use crate::tui::trace::{Mark, Marks, Trace};
+use crate::tui::trace::{Mark, Marks};
 use rubscope_solver::motion::{
     LAST_PART, Motion, Scripted, Seen, Verdict, VerdictReached, caught_at, judge_end,
     lock_that_broke,
@@ -24,9 +24,8 @@ pub struct Film {
     /// Time up to which the film is computed, where the explicit solver may be at its last step
     /// before \[s\].
     reached: f64,
-    /// `u_c`, `u_s` \[m\], `alpha_c` and `alpha_s` \[rad\] at the start of the last part and at
-    /// equal intervals after it.
-    points: Vec<[f64; 4]>,
+    /// `u_c` and `u_s` \[m\] at the start of the last part and at equal intervals after it.
+    points: Vec<[f64; 2]>,
     marks: Marks,
     copies: Copies,
     /// Wall-clock time spent on the last part and what was missing before it.
@@ -75,7 +74,7 @@ impl Film {
             copies,
         };
         if film.reached >= film.plan.from_s {
-            film.points.push(point(&film.ahead.motion));
+            film.points.push(film.ahead.motion.state().u);
         }
         film
     }
@@ -146,12 +145,12 @@ impl Film {
         if self.points.is_empty() && self.reached >= self.plan.from_s {
             // A change at the same instant, or one soon after it, goes on from here.
             self.copies.push(&self.ahead);
-            self.points.push(point(&self.ahead.motion));
+            self.points.push(self.ahead.motion.state().u);
             return;
         }
         self.copies.follow(&self.ahead);
         if !self.points.is_empty() {
-            self.points.push(point(&self.ahead.motion));
+            self.points.push(self.ahead.motion.state().u);
             self.proved = self.proved.or_else(|| self.proof());
         }
     }
@@ -159,7 +158,7 @@ impl Film {
     /// Returns `u_c` and `u_s` of the casing at equal intervals after the start of the last part,
     /// so far \[m\].
     pub fn signal(&self) -> Vec<[f64; 2]> {
-        self.points.iter().skip(1).map(|[u_c, u_s, ..]| [*u_c, *u_s]).collect()
+        self.points.iter().skip(1).copied().collect()
     }
 
     /// Returns the latest known motion at or before `t` \[s\].
@@ -215,21 +214,17 @@ impl Film {
         let log = motion.contacts();
         let checks = motion.checks();
         let (verdict, failure) = judge_end(motion, &checks, self.window());
-        let FilmPlan { from_s: from, end_s, .. } = self.plan;
-        let step = (end_s - from) / f64::from(SAMPLES);
         FullRun {
-            trace: Arc::new(Trace { from, step, points: self.points.clone() }),
+            end: motion.state(),
             marks: Arc::new(self.marks.seen.clone()),
             broken: lock_that_broke(motion),
             caught: caught_at(motion),
             seen: Seen::at_end(motion, verdict, self.window()),
-            still: motion.state().amplitude() == 0.0,
             verdict,
             since: verdict.keeps_contact().then_some(log.since),
             multipliers: motion.multipliers(),
             impacts: log.impact_count,
             checks,
-            stopped: motion.stopped().or_else(|| failure.as_ref().map(ToString::to_string)),
             failure,
         }
     }
@@ -280,7 +275,8 @@ impl Film {
 
     /// Computes a slice of the page.
     pub fn compute_page(&mut self) {
-        let from = self.page.due_from().and_then(|from| self.before(from).cloned());
+        let from = self.page.due_from().filter(|_| !self.page.has_begun());
+        let from = from.and_then(|from| self.before(from).cloned());
         self.page.compute(from, self.plan.scene.solver.step_s);
     }
 }
@@ -289,12 +285,6 @@ impl Film {
 /// steps.
 fn steps(motion: &Motion) -> Option<[u64; 2]> {
     Some([motion.steps_taken()?, motion.steps_skipped()?])
-}
-
-fn point(motion: &Motion) -> [f64; 4] {
-    let state = motion.state();
-    let ([u_c, u_s], [alpha_c, alpha_s]) = (state.u, state.alpha);
-    [u_c, u_s, alpha_c, alpha_s]
 }
 
 #[cfg(test)]
@@ -383,7 +373,7 @@ mod tests {
                 assert_eq!(film.ahead.motion.state(), whole.ahead.motion.state(), "{name}");
                 let [own, other] = [&film, &whole].map(|film| film.result.as_ref().unwrap());
                 assert_eq!(own.verdict, other.verdict, "{name}");
-                assert_eq!(own.trace, other.trace, "{name}");
+                assert_eq!(own.end, other.end, "{name}");
                 assert_eq!(own.impacts, other.impacts, "{name}");
             }
             assert_eq!(now.script.changes().iter().filter(|(t, _)| *t < 2.5e-3).count(), 0);
