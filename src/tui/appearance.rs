@@ -8,6 +8,13 @@ use super::raster::{Marker, Pen};
 use super::theme::{Role, Theme};
 use crate::sheet::number::{spell_micro, tell_in_rpm};
 
+/// Letters and signs of the screen, each with its spelling in ASCII.
+const SPELLED: &[&str] = &[
+    "ΩOm", "ωom", "λlambda", "ζzeta", "αalpha", "βbeta", "γgamma", "δdelta", "θtheta", "νnu",
+    "ΦPhi", "ψpsi", "κkappa", "μmu", "τtau", "πpi", "µu", "±+-", "²^2", "·.", "×x", "–-", "—-",
+    "─-", "…...", "●o", "◆@", "▲^", "╋+", "○o", "◄<", "←<", "►>", "→>", "▸>", "↑^", "↓v", "┄~",
+];
+
 /// Theme, marker and unit of speeds that the screen uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Appearance {
@@ -75,43 +82,11 @@ impl Appearance {
         }
         let mut out = String::with_capacity(text.len());
         for letter in text.chars() {
-            match letter {
-                'Ω' => out.push_str("Om"),
-                'ω' => out.push_str("om"),
-                'λ' => out.push_str("lambda"),
-                'ζ' => out.push_str("zeta"),
-                'α' => out.push_str("alpha"),
-                'β' => out.push_str("beta"),
-                'γ' => out.push_str("gamma"),
-                'δ' => out.push_str("delta"),
-                'θ' => out.push_str("theta"),
-                'ν' => out.push_str("nu"),
-                'Φ' => out.push_str("Phi"),
-                'ψ' => out.push_str("psi"),
-                'κ' => out.push_str("kappa"),
-                'μ' => out.push_str("mu"),
-                'τ' => out.push_str("tau"),
-                'π' => out.push_str("pi"),
-                'µ' => out.push('u'),
-                '±' => out.push_str("+-"),
-                '²' => out.push_str("^2"),
-                '·' => out.push('.'),
-                '×' => out.push('x'),
-                '–' | '—' | '─' => out.push('-'),
-                '…' => out.push_str("..."),
-                '●' => out.push('o'),
-                '◆' => out.push('@'),
-                '▲' => out.push('^'),
-                '╋' => out.push('+'),
-                '○' => out.push('o'),
-                '◄' | '←' => out.push('<'),
-                '►' | '→' | '▸' => out.push('>'),
-                '↑' => out.push('^'),
-                '↓' => out.push('v'),
-                '┄' => out.push('~'),
-                CURSOR => out.push(CURSOR),
-                letter if letter.is_ascii() => out.push(letter),
-                _ => out.push('?'),
+            let spelled = SPELLED.iter().find_map(|of| of.strip_prefix(letter));
+            match spelled {
+                Some(spelled) => out.push_str(spelled),
+                None if letter.is_ascii() || letter == CURSOR => out.push(letter),
+                None => out.push('?'),
             }
         }
         out

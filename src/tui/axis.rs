@@ -14,14 +14,21 @@ pub struct ChartAxis {
     pub high: f64,
     /// Prefix or unit of the labels: a label is the value divided by its factor.
     pub scale: SiScale,
-    /// Whether the values are exponents of powers of ten.
-    powers: bool,
-    /// Unit with which powers of ten are labelled; `None` for labels such as `1e5`.
-    unit: Option<&'static str>,
-    /// Whether the values are speeds, with ticks that are round in the shown unit.
-    speeds: bool,
-    /// Whether only whole numbers have ticks.
-    whole: bool,
+    /// What the values are.
+    kind: Kind,
+}
+
+/// What the values of an axis are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    /// Numbers in the prefix of the axis.
+    Plain,
+    /// Whole numbers: no others have ticks.
+    Whole,
+    /// Speeds or frequencies, with ticks that are round in the shown unit.
+    Speeds,
+    /// Exponents of powers of ten, labelled with this unit or as in `1e5`.
+    Powers(Option<&'static str>),
 }
 
 impl ChartAxis {
@@ -40,19 +47,18 @@ impl ChartAxis {
 
     /// Creates an axis without a prefix.
     pub fn plain(low: f64, high: f64) -> Self {
-        let scale = SiScale::plain();
-        Self { low, high, scale, powers: false, unit: None, speeds: false, whole: false }
+        Self { low, high, scale: SiScale::plain(), kind: Kind::Plain }
     }
 
     /// Creates an axis of whole numbers.
     pub fn whole(low: f64, high: f64) -> Self {
-        Self { whole: true, ..Self::plain(low, high) }
+        Self { kind: Kind::Whole, ..Self::plain(low, high) }
     }
 
     /// Creates an axis of speeds \[rad/s\], in the unit the user chose.
     pub fn speeds(low: f64, high: f64) -> Self {
         let scale = SiScale { factor: 1.0 / per_speed(1.0), prefix: "" };
-        Self { scale, speeds: true, ..Self::plain(low, high) }
+        Self { scale, kind: Kind::Speeds, ..Self::plain(low, high) }
     }
 
     /// Creates an axis of angular frequencies \[rad/s\], in the unit the user chose.
@@ -64,16 +70,16 @@ impl ChartAxis {
     /// Creates a logarithmic axis between two exponents of ten, with labels in `unit`, as in
     /// `100 kN`, or such as `1e5`.
     pub fn powers(low: f64, high: f64, unit: Option<&'static str>) -> Self {
-        Self { powers: true, unit, ..Self::plain(low, high) }
+        Self { kind: Kind::Powers(unit), ..Self::plain(low, high) }
     }
 
     /// Returns the round values on the axis, at most `most + 1`, and their spacing; on a
     /// logarithmic axis and one of whole numbers, only whole values.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
-        let unit = if self.speeds { self.scale.factor } else { 1.0 };
+        let unit = if self.kind == Kind::Speeds { self.scale.factor } else { 1.0 };
         let (mut values, step) = ticks(self.low / unit, self.high / unit, most);
         values.iter_mut().for_each(|value| *value *= unit);
-        if !self.powers && !self.whole {
+        if matches!(self.kind, Kind::Plain | Kind::Speeds) {
             return (values, step * unit);
         }
         (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), step.max(1.0))
@@ -81,10 +87,10 @@ impl ChartAxis {
 
     /// Returns the label of a tick at `value`; ticks are `step` apart.
     pub(super) fn label(&self, value: f64, step: f64) -> String {
-        match (self.powers, self.unit) {
-            (true, Some(unit)) => number(10f64.powi(value.round() as i32), unit),
-            (true, None) => format!("1e{value:.0}"),
-            (false, _) => self.scale.label(value, step),
+        match self.kind {
+            Kind::Powers(Some(unit)) => number(10f64.powi(value.round() as i32), unit),
+            Kind::Powers(None) => format!("1e{value:.0}"),
+            _ => self.scale.label(value, step),
         }
     }
 

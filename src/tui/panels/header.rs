@@ -5,7 +5,9 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
-use crate::sheet::number::{in_tenths, per_speed, rounded, short as digits, speed_unit, trimmed};
+use crate::sheet::number::{
+    in_tenths, per_speed, rounded, short as digits, speed_unit, trimmed, with_unit,
+};
 use crate::sheet::sentence::Sentence;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -324,22 +326,15 @@ fn cost(app: &App) -> Option<Part> {
     let pace = &app.results().pace;
     let run = pace.run_s?;
     let mut parts = Vec::new();
-    parts.extend(pace.step_s.map(|step| format!("{}/step taken", duration(step))));
+    parts.extend(pace.step_s.map(|step| format!("{}/step taken", with_unit(step, 3, "s"))));
     if let Some(part) = pace.skipped {
         // Round down, so that 100 % means that no step was taken.
         let percent = (1e3 * part).floor() / 10.0;
         parts.push(format!("{} % skipped", trimmed(&format!("{percent:.1}"))));
     }
-    parts.push(format!("{} in {}", duration(app.scene.solver.end_s), duration(run)));
+    let [end, run] = [app.scene.solver.end_s, run].map(|time| with_unit(time, 3, "s"));
+    parts.push(format!("{end} in {run}"));
     Some(plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
-}
-
-/// Formats a duration with two or three significant digits.
-fn duration(seconds: f64) -> String {
-    let scale = crate::tui::axis::SiScale::of(seconds);
-    let shown = seconds / scale.factor;
-    let decimals = usize::from(shown < 99.95);
-    format!("{} {}s", trimmed(&format!("{shown:.decimals$}")), scale.prefix)
 }
 
 #[cfg(test)]
