@@ -9,6 +9,7 @@
 //!
 //! The module also derives from it the gap of a side during free flight after the pulse.
 
+use super::Plane;
 use crate::model::{Machine, Operation};
 
 /// Frequency of a damped oscillator, as a part of its damping, up to which it hardly swings.
@@ -84,6 +85,12 @@ impl Propagator {
                 ramp: (1.0 - hold) / self.stiffness,
             }
         }
+    }
+
+    /// Returns displacement and rate after the free motion of a response.
+    pub(super) fn moved(&self, later: &Response, place: Plane, rate: Plane) -> (Plane, Plane) {
+        let Response { hold, unit, slope, .. } = *later;
+        (place * hold + rate * unit, rate * slope - place * (self.stiffness * unit))
     }
 
     fn real_roots(&self, s: f64) -> Response {

@@ -67,10 +67,11 @@ pub trait Solver: Debug + Send + Sync {
     /// positive is open \[m\].
     fn blade_gaps(&self) -> Vec<f64> {
         let (machine, state) = (self.machine(), self.state());
-        let (polygon, diameters) = (&machine.polygon, machine.nodal_diameters);
+        let polygon = &machine.polygon;
+        let diameters = if self.linearised() { 0.0 } else { machine.nodal_diameters };
         // In the blade frame only the small angles differ from blade to blade.
         let theta = self.rotor().angle(state.t_s);
-        let z = Plane::new(state.u[0], state.u[1]) * Plane::cis(-diameters * theta);
+        let z = Plane::new(state.u[0], state.u[1]) * Plane::cis(-machine.nu(theta));
         let rise = machine.radial_coupling * machine.blade_length;
         let gap = |(blade, angle): (u32, f64)| {
             let (c, s) = polygon.direction(polygon.side_of_blade(blade));

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use super::Events;
 use super::flight::amplitude;
-use super::flow::{Face, Flow};
+use super::flow::{Blades, Face, Flow};
 use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
@@ -18,6 +18,9 @@ use crate::motion::verdict::Trend;
 use crate::motion::{Failure, FailureReason, Plane, dot, size};
 use crate::numeric::quadrature::GAUSS_8;
 use crate::numeric::search::bisected;
+
+/// Instants of a free flight at which the blade angles are looked at.
+const ANGLES: u32 = 64;
 
 /// Energies per unit casing mass \[m^2/s^2\].
 #[derive(Clone, Copy, Debug, Default)]
@@ -51,7 +54,8 @@ impl Energies {
 
     /// Adds the first `s` seconds of a stretch.
     pub(super) fn book(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64) {
-        if stretch.free {
+        if held.rows.is_empty() && !stretch.is_pulsed() {
+            // In free motion damping takes what is gone.
             let [casing, blades] = flow.energies(stretch.from(), 0.0);
             let [casing_left, blades_left] = flow.energies(&stretch.point(flow, s), s);
             self.casing += casing - casing_left;
@@ -74,14 +78,16 @@ impl Energies {
     fn add(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64, time: f64) {
         let point = stretch.point(flow, s);
         let v = flow.carried(&point, s);
-        self.pulse += time * dot(stretch.force_at(s), v);
+        if stretch.is_pulsed() {
+            self.pulse += time * dot(stretch.force_at(s), v);
+        }
         self.casing += time * 2.0 * flow.casing.damping * v.norm_sqr();
         if let Some(blades) = flow.blades {
             self.blades +=
                 time * 2.0 * blades.propagator.damping * blades.mass * point.da.norm_sqr();
         }
         if !held.rows.is_empty() {
-            let pushes = held.with(stretch.pushes_at(s));
+            let pushes = stretch.pushes_at(held, s);
             let each = pushes.map(|(row, push)| (flow.face(row, &point), push * time));
             self.push(flow, &point, s, each);
         }
@@ -223,19 +229,25 @@ impl Events {
     /// Returns the largest blade angle up to `s` seconds into the stretch \[rad\].
     pub(super) fn widest_until(&self, s: f64) -> f64 {
         let (flow, stretch) = (&self.flow, &self.stretch);
-        let Some(blades) = &flow.blades else { return 0.0 };
-        let from = stretch.from();
-        if stretch.free
-            && amplitude(from.a, from.da, blades.propagator.stiffness) <= self.run.widest
-        {
-            return self.run.widest;
+        let Some(Blades { propagator, .. }) = &flow.blades else { return 0.0 };
+        let wider = |widest: f64, a: Plane| {
+            if size(a) <= widest { widest } else { widest.max(flow.largest_angle(a)) }
+        };
+        let (mut a, mut da) = (stretch.from().a, stretch.from().da);
+        if !stretch.free {
+            let angle = |part: u32| stretch.point(flow, s * f64::from(part) / 4.0).a;
+            return (0..=4).map(angle).fold(self.run.widest, wider);
         }
-        // The largest amplitude of free blades occurs within their first period.
-        let s = s.min(TAU / flow.machine.omega_bd);
-        let parts = if stretch.free { 64 } else { 4 };
-        (0..=parts).fold(self.run.widest, |widest, part| {
-            let point = stretch.point(flow, s * f64::from(part) / f64::from(parts));
-            if size(point.a) <= widest { widest } else { widest.max(flow.largest_angle(point.a)) }
-        })
+        let mut widest = self.run.widest;
+        if amplitude(a, da, propagator.stiffness) > widest {
+            // The largest amplitude of free blades occurs within their first period.
+            let later = propagator.at(s.min(TAU / flow.machine.omega_bd) / f64::from(ANGLES));
+            widest = wider(widest, a);
+            for _ in 0..ANGLES {
+                (a, da) = propagator.moved(&later, a, da);
+                widest = wider(widest, a);
+            }
+        }
+        widest
     }
 }

@@ -13,10 +13,7 @@ impl Flow {
     /// Returns the point after `s` seconds of free motion without pulse.
     pub(super) fn flown(&self, from: &Point, s: f64) -> Point {
         let fly = |propagator: &Propagator, place: Plane, rate: Plane| {
-            let response = propagator.at(s);
-            let later = place * response.hold + rate * response.unit;
-            let speed = rate * response.slope - place * (propagator.stiffness * response.unit);
-            (later, speed)
+            propagator.moved(&propagator.at(s), place, rate)
         };
         let back = Plane::cis(-self.turned(s));
         let (u, v) = fly(&self.casing, from.z, self.carried(from, 0.0));

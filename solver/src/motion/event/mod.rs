@@ -234,23 +234,9 @@ impl Solver for Events {
         }
     }
 
-    fn blade_gaps(&self) -> Vec<f64> {
-        let (flow, point) = (&self.flow, self.point_now());
-        let polygon = &flow.machine.polygon;
-        let gap = |blade: u32| {
-            let (cos, sin) = polygon.direction(polygon.side_of_blade(blade));
-            let base = Plane::new(cos, sin);
-            let angle = dot(base, point.a);
-            let normal = base * Plane::cis(flow.diameters() * angle);
-            let unevenness = flow.machine.uneven_at(blade - 1, 0.0);
-            flow.clearance() + unevenness + dot(normal, point.z) - flow.arm() * angle
-        };
-        (1..=polygon.blades).map(gap).collect()
-    }
-
     fn multipliers(&self) -> Vec<(u32, f64)> {
         let mass = self.flow.machine.casing_mass;
-        let pushes = self.held.with(self.stretch.pushes_at(self.elapsed(self.run.clock.now)));
+        let pushes = self.stretch.pushes_at(&self.held, self.elapsed(self.run.clock.now));
         let mut sides: Vec<(u32, f64)> =
             pushes.map(|(row, push)| (row as u32, -push * mass)).collect();
         in_phase_order(&self.flow.machine.polygon, &mut sides);

@@ -5,7 +5,7 @@
 //! at a corner and bouncing on a side are resolved down to round-off.
 
 use super::flow::{EVENT, Flow};
-use super::series::{TERMS, Terms, curved_step, gap, jounce, values};
+use super::series::{Gap, TERMS, Terms, curved_step, gap, jounce};
 use super::stretch::{Held, Stretch};
 
 /// Evaluations of a gap in the search for its zero, at most.
@@ -71,14 +71,15 @@ fn without_zeros(terms: &Terms) -> (usize, Terms) {
 
 /// Returns value and derivative of `x^order left(x)`.
 fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
-    let [value, rate, _] = values(left, x);
+    let Gap { gap: value, rate, .. } = gap(left, x);
     let power = |n: usize| x.powi(i32::try_from(n).unwrap_or(0));
     let grows = if order == 0 { 0.0 } else { order as f64 * power(order - 1) * value };
     (power(order) * value, grows + power(order) * rate)
 }
 
-/// Returns the first `x` up to `end` at which the series falls to `noise`; `None` if it does not.
-fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
+/// Returns the first `x` up to `end` at which the series falls to `noise`, and its derivative there;
+/// `None` if it does not.
+fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<(f64, f64)> {
     let falls: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
     if terms[0] > falls {
         return None;
@@ -90,7 +91,7 @@ fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<f64> {
         looks += 1.0;
         // A gap that stays this close to contact for so many evaluations counts as contact.
         if (now.gap <= noise && now.rate < 0.0) || looks > MOST_TRIES {
-            return Some(x);
+            return Some((x, now.rate));
         }
         x = (x + curved_step(now.above(noise), bound, 1.0 - x)).max(x.next_up());
     }
@@ -110,16 +111,16 @@ pub(super) fn seek(
             (end, what) = (x, Ending::Release(row));
         }
     }
-    for gap in opened {
-        let (order, left) = without_zeros(&gap.terms(flow, stretch));
+    for open in opened {
+        let (order, left) = without_zeros(&open.terms(flow, stretch));
         if left[0] < 0.0 {
-            return (0.0, Ending::Touch(gap.row, gap.rate.min(0.0)));
+            return (0.0, Ending::Touch(open.row, open.rate.min(0.0)));
         }
         let noise = flow.tolerance.max(EVENT) * left[0];
-        if let Some(x) = first_zero(&left, noise, end) {
+        if let Some((x, rate)) = first_zero(&left, noise, end) {
             // At the zero itself only the derivative of the reduced series contributes.
-            let slope = values(&left, x)[1] * x.powi(i32::try_from(order).unwrap_or(0));
-            (end, what) = (x, Ending::Touch(gap.row, (slope / stretch.length).min(0.0)));
+            let slope = rate * x.powi(i32::try_from(order).unwrap_or(0));
+            (end, what) = (x, Ending::Touch(open.row, (slope / stretch.length).min(0.0)));
         }
     }
     let [travel, reach] = stretch.travel;
@@ -132,9 +133,8 @@ pub(super) fn seek(
                 continue;
             }
             let terms = stretch.gap(flow, row);
-            if let Some(x) = first_zero(&terms, noise, end) {
-                let rate = values(&terms, x)[1] / stretch.length;
-                (end, what) = (x, Ending::Touch(row, rate.min(0.0)));
+            if let Some((x, rate)) = first_zero(&terms, noise, end) {
+                (end, what) = (x, Ending::Touch(row, (rate / stretch.length).min(0.0)));
             }
         }
     }
@@ -142,15 +142,11 @@ pub(super) fn seek(
 }
 
 /// Returns the fraction of the stretch at which a contact force vanishes; `None` if it does not
-/// before `end`, or if the force is entirely round-off.
+/// before `end`, or if there is none: a row in contact without a force is not opened by round-off.
 fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Option<f64> {
-    if stretch.is_noise(terms) {
-        // A row in contact without a force is not opened by round-off.
-        return None;
-    }
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms[0] > stretch.noise {
-        return first_zero(terms, tolerance * size, end);
+        return first_zero(terms, tolerance * size, end).map(|(x, _)| x);
     }
     // The force starts at zero: its first nonzero term decides.
     let mut left = *terms;
@@ -160,5 +156,5 @@ fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Optio
         return Some(0.0);
     }
     let (_, left) = without_zeros(&left);
-    first_zero(&left, tolerance * size, end)
+    first_zero(&left, tolerance * size, end).map(|(x, _)| x)
 }

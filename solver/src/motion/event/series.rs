@@ -3,7 +3,7 @@
 //! section 7).
 //!
 //! Advancing by that time and repeating cannot miss a contact, however short, because signs are
-//! never tested at sample points. [`values`] and [`gap`] evaluate series, [`safe_step`] and
+//! never tested at sample points. [`value`] and [`gap`] evaluate series, [`safe_step`] and
 //! [`curved_step`] give the bounds.
 
 /// Part of the largest term that two of the last terms of a power series may be: the first one
@@ -19,15 +19,9 @@ pub(in crate::motion::event) const STRETCH: f64 = 0.8;
 /// Coefficients of `x^n`, where `0 <= x <= 1` is the fraction of the stretch.
 pub(in crate::motion::event) type Terms = [f64; TERMS];
 
-/// Returns the value and the first two derivatives, by Horner's scheme.
-pub(in crate::motion::event) fn values(terms: &Terms, x: f64) -> [f64; 3] {
-    let (mut value, mut rate, mut bend) = (0.0, 0.0, 0.0);
-    for &term in terms.iter().rev() {
-        bend = bend * x + rate;
-        rate = rate * x + value;
-        value = value * x + term;
-    }
-    [value, rate, 2.0 * bend]
+/// Returns the value, by Horner's scheme.
+pub(in crate::motion::event) fn value(terms: &Terms, x: f64) -> f64 {
+    terms.iter().rev().fold(0.0, |value, term| value * x + term)
 }
 
 /// Returns the value and the first three derivatives as a gap.
@@ -137,7 +131,7 @@ mod tests {
             exp[n] = exp[n - 1] / n as f64;
         }
         for x in [0.0, 0.3, STRETCH] {
-            let [value, rate, bend] = values(&exp, x);
+            let Gap { gap: value, rate, bend, .. } = gap(&exp, x);
             // The first missing term of the second derivative is 0.8^16/16!.
             assert!((value - x.exp()).abs() + (rate - x.exp()).abs() < 3e-15);
             assert!((bend - x.exp()).abs() < 5e-15);

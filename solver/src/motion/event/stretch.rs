@@ -8,7 +8,7 @@
 //! push, and the turning of its normal adds `curvature_j`.
 
 use super::flow::{Blades, Face, Flow};
-use super::series::{STRETCH, TERMS, Terms, ended, gap, values};
+use super::series::{STRETCH, TERMS, Terms, ended, gap, value};
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
 use crate::motion::{Plane, dot, size};
@@ -89,11 +89,6 @@ impl Held {
             *slot = opening(row);
         }
         openings
-    }
-
-    /// Pairs each row with its contact force.
-    pub(super) fn with(&self, pushes: [f64; MOST_HELD]) -> impl Iterator<Item = (usize, f64)> {
-        self.rows.iter().copied().zip(pushes)
     }
 
     /// Pairs the face of each row with its contact force.
@@ -267,7 +262,7 @@ impl Stretch {
         let moving = flow.blades.is_some();
         let (fixed, pulsed) = (held.is_fixed(flow), force != Plane::default());
         let turning = flow.blades.filter(|blades| blades.diameters != 0.0);
-        let mut turned = [Turning::default(); MOST_HELD];
+        let mut turned = turning.map(|_| [Turning::default(); MOST_HELD]);
         let mut acting = [force * square, Plane::default()];
         // Terms of this order and of the next.
         let (mut z, mut a) = (self.from.z, self.from.a);
@@ -295,8 +290,8 @@ impl Stretch {
             }
             if !held.rows.is_empty() {
                 let mut bends = [0.0; MOST_HELD];
-                if let Some(blades) = &turning {
-                    let each = held.faces().iter().zip(&mut turned).zip(&self.pushes);
+                if let (Some(blades), Some(turned)) = (&turning, &mut turned) {
+                    let each = held.faces().iter().zip(turned).zip(&self.pushes);
                     for (((face, turned), pushes), bend) in each.zip(&mut bends) {
                         let rate = blades.diameters * dot(face.base, da) * (order + 1.0);
                         *bend = turned.follow(face, rate, &self.z, n) / over;
@@ -360,14 +355,13 @@ impl Stretch {
             + at_z.gap * turns[2];
         self.swing = moved[1];
         let moves = |size: &Terms| ended(size) && size.iter().all(|term| term.is_finite());
-        moves(&z)
-            && moves(&a)
-            && self.pushes.iter().take(held).all(|terms| ended(terms) || self.is_noise(terms))
-    }
-
-    /// Returns whether a contact force is entirely round-off.
-    pub(super) fn is_noise(&self, push: &Terms) -> bool {
-        push.iter().map(|term| term.abs()).sum::<f64>() <= self.noise
+        for push in self.pushes.iter_mut().take(held) {
+            // A contact force that is entirely round-off is none.
+            if push.iter().map(|term| term.abs()).sum::<f64>() <= self.noise {
+                *push = [0.0; TERMS];
+            }
+        }
+        moves(&z) && moves(&a) && self.pushes.iter().take(held).all(ended)
     }
 
     /// Returns the fraction of the stretch after `s` seconds.
@@ -402,20 +396,21 @@ impl Stretch {
         }
     }
 
-    /// Returns the contact forces per unit casing mass after `s` seconds \[m/s^2\].
-    pub(super) fn pushes_at(&self, s: f64) -> [f64; MOST_HELD] {
+    /// Returns the contact forces of the rows per unit casing mass after `s` seconds \[m/s^2\].
+    pub(super) fn pushes_at(&self, held: &Held, s: f64) -> impl Iterator<Item = (usize, f64)> {
         let x = self.part(s);
-        self.pushes.map(
-            |terms| {
-                if self.is_noise(&terms) { 0.0 } else { values(&terms, x)[0].max(0.0) }
-            },
-        )
+        held.rows.iter().zip(&self.pushes).map(move |(row, push)| (*row, value(push, x).max(0.0)))
+    }
+
+    /// Returns whether the pulse acts.
+    pub(super) fn is_pulsed(&self) -> bool {
+        term(&self.force, 0) != Plane::default()
     }
 
     /// Returns the pulse force per unit casing mass after `s` seconds \[m/s^2\].
     pub(super) fn force_at(&self, s: f64) -> Plane {
         let x = self.part(s);
-        Plane::new(values(&self.force[0], x)[0], values(&self.force[1], x)[0])
+        Plane::new(value(&self.force[0], x), value(&self.force[1], x))
     }
 
     /// Returns a lower bound on the gap of a row over the fraction `end` of the stretch \[m\].

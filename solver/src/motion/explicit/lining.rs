@@ -295,20 +295,21 @@ impl Explicit {
     }
 
     /// Finds the pushes of the lining at the latest step.
-    pub(super) fn press(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
-        self.find_pressed(z, turn, tips);
+    pub(super) fn press(&mut self, z: Plane, turn: Plane) {
+        self.find_pressed(z, turn);
         if !self.keep_pressed() {
             return self.leave();
         }
-        let swing = if tips.rise == 0.0 { 0.0 } else { tips.rise.abs() * self.disk.swing() };
         let [c, s] = self.disk.modal();
-        let rise = Plane::new(c, s) * tips.rise;
+        let (rise, swing) = (Plane::new(c, s) * self.tips.rise, self.tip_swing());
         self.lasting.look(self.drive.time_of(self.n), z, rise, swing);
     }
 
-    fn find_pressed(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
+    fn find_pressed(&mut self, z: Plane, turn: Plane) {
         let bound = self.disk.bound();
-        let Self { lining: Some(lining), disk, record, tips_of_rows, .. } = self else { return };
+        let Self { lining: Some(lining), disk, record, tips_of_rows, tips, .. } = self else {
+            return;
+        };
         (lining.turn, lining.held_before) = (turn, None);
         let rows = tips_of_rows.rows.len();
         let mut x = disk.pair_angles();
@@ -385,13 +386,11 @@ impl Explicit {
 
     /// Presses the lining at the start; the step before it must know its pushes.
     pub(super) fn press_start(&mut self) {
-        let tips = self.tips;
-        let turn = self.turn_now();
-        let z = self.place(turn);
-        self.find_pressed(z, turn, &tips);
         if self.lining.is_none() {
             return;
         }
+        let turn = self.turn_now();
+        self.find_pressed(self.place(turn), turn);
         let push = self.lining_push();
         self.disk.begin();
         for (at, force) in self.u.iter_mut().zip([push.re, push.im]) {
@@ -401,12 +400,12 @@ impl Explicit {
         let (turn, lobe_turn) = self.drive.turns_before(self.n, 1);
         let [x, y] = self.u.map(|at| at.x - at.increment);
         let z = Plane::new(x, y) * turn.conj();
-        let Self { lining: Some(lining), disk, tips_of_rows, .. } = self else { return };
+        let Self { lining: Some(lining), disk, tips_of_rows, tips, .. } = self else { return };
         let each = f64::from(disk.rows().1);
         let pressed = lining.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0);
         let held = pressed.map(|(row, _)| {
             let angle = disk.angle_before(row);
-            let gap = tips_of_rows.row(row, z, angle, lobe_turn, &tips).gap + self.closed[0];
+            let gap = tips_of_rows.row(row, z, angle, lobe_turn, tips).gap + self.closed[0];
             each * lining.law.energy(gap)
         });
         lining.held_before = Some(held.sum());
@@ -425,9 +424,9 @@ impl Explicit {
         });
         let Some(law) = self.scene.lining() else { return };
         self.lining = Some(Lining::new(law, &self.tips_of_rows, &self.disk));
-        let (tips, turn) = (self.tips, self.turn_now());
+        let turn = self.turn_now();
         self.disk.forget_felt();
-        self.find_pressed(self.place(turn), turn, &tips);
+        self.find_pressed(self.place(turn), turn);
         let Some(lining) = &mut self.lining else { return };
         lining.held_before = Some(part * lining.energy(|four| four.depth));
         // The record has the pushes of this step.

@@ -178,9 +178,9 @@ impl Explicit {
         self.tips_of_rows.row(index, z, self.disk.angle(index), self.lobe_turn, &self.tips)
     }
 
-    /// Returns the law of the tips at the latest step: the sign of friction follows the rotor.
+    /// Turns the friction of the tips at the latest step with the rotor.
     #[inline]
-    fn tips_now(&mut self) -> TipLaw {
+    fn turn_friction(&mut self) {
         if self.machine.friction != 0.0 {
             let speed = self.drive.speed(self.n);
             if (speed < 0.0) != self.backward {
@@ -188,7 +188,6 @@ impl Explicit {
                 self.tips = TipLaw::at(&self.machine, speed);
             }
         }
-        self.tips
     }
 
     /// Returns the energy of casing, blades and lining between the last two steps \[J\].
@@ -211,8 +210,8 @@ impl Explicit {
     }
 
     /// Adds the work of the rotor and the heat of one push over the last two half steps \[J\].
-    fn count_push(&mut self, row: &Row, turn: Plane, tips: &TipLaw) {
-        let (push, normal) = (-row.lambda, row.normal);
+    fn count_push(&mut self, row: &Row, turn: Plane) {
+        let (push, normal, tips) = (-row.lambda, row.normal, self.tips);
         let speed = self.drive.rotor.speed(self.drive.time_of(self.n) - self.drive.step);
         let rotor = speed * self.drive.step;
         self.ledger.sums.rotor_work_j -= push * row.arm * rotor;

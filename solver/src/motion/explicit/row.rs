@@ -113,8 +113,8 @@ pub(super) struct Tip {
 #[derive(Clone, Debug)]
 pub(super) struct Tips {
     pub rows: Vec<Tip>,
-    /// The sides of the polygon in their order, where each has one row and all tips are equal in a
-    /// round casing; else empty.
+    /// The last side of the polygon, all in their order, and the first, where each has one row and
+    /// all tips are equal in a round casing; else empty.
     pub sides: Vec<Side>,
     /// `e exp(i (m Phi - psi_e))` of each row; none of a round casing \[m\].
     pub lobe: Vec<Plane>,
@@ -136,10 +136,11 @@ impl Tips {
         let uneven = machine.tips.as_deref();
         let mut sides = Vec::new();
         if uneven.is_none() && count == polygon.sides as usize {
-            sides = vec![Side::default(); count];
+            sides = vec![Side::default(); count + 2];
             for (row, tip) in rows.iter().enumerate() {
-                sides[tip.side as usize] = Side { normal: tip.normal, row };
+                sides[tip.side as usize + 1] = Side { normal: tip.normal, row };
             }
+            (sides[0], sides[count + 1]) = (sides[count], sides[1]);
         }
         let lobed = uneven.filter(|tips| tips.out_of_round != 0.0);
         let lobe = |row: usize| {
@@ -157,37 +158,36 @@ impl Tips {
         }
     }
 
-    /// Returns the side before or after another.
+    /// Returns the number of sides of the polygon.
     #[inline(always)]
-    pub fn beside(&self, side: usize, forward: bool) -> usize {
-        match forward {
-            true if side + 1 == self.sides.len() => 0,
-            true => side + 1,
-            false if side == 0 => self.sides.len() - 1,
-            false => side - 1,
-        }
+    pub fn sides(&self) -> usize {
+        self.sides.len() - 2
+    }
+
+    /// Returns the row of a side.
+    #[inline(always)]
+    pub fn row_of(&self, side: usize) -> usize {
+        self.sides[side + 1].row
     }
 
     /// Returns the gap of a side of the polygon at `w`, less the clearance \[m\].
     #[inline(always)]
     pub fn open(&self, side: usize, w: Plane) -> f64 {
-        dot(self.sides[side].normal, w)
+        dot(self.sides[side + 1].normal, w)
     }
 
-    /// Returns the side with the smallest gap at `w`, looked for from side `near`, its gap and those
-    /// on either side of it, each less the clearance \[m\].
+    /// Returns the side with the smallest gap at `w`, looked for from side `near`, and the gaps of the
+    /// side before it, of itself, and of the side after it, each less the clearance \[m\].
     #[inline]
-    pub fn nearest(&self, mut near: usize, w: Plane) -> (usize, f64, [f64; 2]) {
-        let mut least = self.open(near, w);
+    pub fn nearest(&self, mut near: usize, w: Plane) -> (usize, [f64; 3]) {
         loop {
-            let [after, before] = [true, false].map(|forward| self.beside(near, forward));
-            let [above, below] = [after, before].map(|side| self.open(side, w));
-            if above < least {
-                (near, least) = (after, above);
-            } else if below < least {
-                (near, least) = (before, below);
+            let [below, own, above] = [0, 1, 2].map(|k| dot(self.sides[near + k].normal, w));
+            if above < own {
+                near = if near + 1 == self.sides() { 0 } else { near + 1 };
+            } else if below < own {
+                near = if near == 0 { self.sides() - 1 } else { near - 1 };
             } else {
-                return (near, least, [above, below]);
+                return (near, [below, own, above]);
             }
         }
     }

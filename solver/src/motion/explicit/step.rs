@@ -14,11 +14,10 @@
 
 use super::Explicit;
 use super::lasting::mark;
-use super::row::{Row, Tip, TipLaw};
+use super::row::{Row, Tip};
 use crate::motion::failure::MOST_ROWS;
 use crate::motion::{ActiveSet, FailureReason, Plane, dot};
 use crate::numeric::lcp;
-use crate::numeric::rounding::ROUND_OFF;
 
 /// Gaps up to this multiple of the deepest penetration are included, as a push may close them: with
 /// two modes one push closes another gap by at most
@@ -37,6 +36,16 @@ const MOST_LONG_STEPS: u32 = 2000;
 /// Cosine of the angle between two sides from which on they count as turned onto each other; it is
 /// -1 at rest. Larger: a step that penetrates between them is blamed instead.
 const SIDES_TOGETHER: f64 = -0.5;
+
+/// What is known of the tips around the casing.
+struct Near {
+    /// How far the deepest is beyond its target \[m\].
+    deepest: f64,
+    /// Bound on how far all tips without a row are from their targets \[m\].
+    next: f64,
+    /// Deepest penetration of tips without a row \[m\].
+    dip: f64,
+}
 
 impl Explicit {
     /// Takes one step.
@@ -72,66 +81,56 @@ impl Explicit {
 
     /// Looks for contact at the prediction.
     fn touch(&mut self) -> Result<(), FailureReason> {
-        let tips = self.tips_now();
+        self.turn_friction();
         let distance2 = self.u[0].x * self.u[0].x + self.u[1].x * self.u[1].x;
         // |u| < g0: no tip can touch, whatever its angle.
-        let risen = if tips.rise == 0.0 { 0.0 } else { tips.rise.abs() * self.disk.bound() };
-        let room = tips.least - risen - self.highest_target();
+        let rise = self.tips.rise.abs();
+        let risen = if rise == 0.0 { 0.0 } else { rise * self.disk.bound() };
+        let room = self.tips.least - risen - self.highest_target();
         if room > 0.0 && distance2 < room * room {
             self.release_lining();
             self.leave();
             return Ok(());
         }
-        self.check_range(distance2, &tips)?;
+        self.check_range(distance2)?;
         let turn = self.turn_now();
         let z = self.place(turn);
         if self.lining.is_some() {
-            self.press(z, turn, &tips);
+            self.press(z, turn);
             return Ok(());
         }
-        self.meet(z, turn, &tips)
+        self.meet(z, turn)
     }
 
     /// Steps 2 to 4: finds the tips that penetrate at the prediction, and corrects it.
-    fn meet(&mut self, z: Plane, turn: Plane, tips: &TipLaw) -> Result<(), FailureReason> {
-        let highest = self.highest_target();
-        let (deepest, next) = self.gather(z, tips, highest);
-        if deepest <= 0.0 {
-            let dip = self.rows.iter().fold(0.0, |dip: f64, row| dip.max(-row.gap));
-            self.rows.clear();
+    fn meet(&mut self, z: Plane, turn: Plane) -> Result<(), FailureReason> {
+        let mut near = self.gather(z, 0.0);
+        if near.deepest <= 0.0 {
             self.leave();
-            self.dips[0] = dip;
-            self.record.deepest = self.record.deepest.max(dip);
+            self.dips[0] = near.dip;
+            self.record.deepest = self.record.deepest.max(near.dip);
             return Ok(());
         }
-        self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
-        if deepest > tips.clearance {
-            return Err(self.too_deep(deepest, z, tips));
+        self.record.deepest_predicted = self.record.deepest_predicted.max(near.deepest);
+        if near.deepest > self.tips.clearance {
+            return Err(self.too_deep(near.deepest, z));
         }
         // Equalities are those of the tips that penetrate. Where contact only pushes, a push may
         // close another gap, by as much as is asked of it.
-        let reach = if self.law.pulls() { 0.0 } else { NEIGHBOUR_DEPTHS * deepest };
-        if next < reach + highest {
-            self.gather(z, tips, reach + highest);
+        let reach = NEIGHBOUR_DEPTHS * near.deepest;
+        if !self.law.pulls() && near.next < reach {
+            near = self.gather(z, reach);
         }
-        let mut taking_part = 0;
-        for place in 0..self.rows.len() {
-            if self.rows[place].apart < reach {
-                self.rows.swap(taking_part, place);
-                taking_part += 1;
-            }
-        }
-        self.find_multipliers(taking_part, tips)?;
-        self.correct(z, turn, tips);
-        self.keep_rows();
+        self.find_multipliers()?;
+        self.correct(z, turn, near.dip);
         self.look_at_swing();
         self.check_length()
     }
 
     /// Returns why a tip is deeper than the clearance: of a polygon of two sides, which lie opposite
     /// each other at rest, blade angles may have turned the one toward the other.
-    fn too_deep(&mut self, depth_m: f64, z: Plane, tips: &TipLaw) -> FailureReason {
-        let (rows, clearance_m) = (self.tips_of_rows.rows.len(), tips.clearance);
+    fn too_deep(&mut self, depth_m: f64, z: Plane) -> FailureReason {
+        let (rows, clearance_m) = (self.tips_of_rows.rows.len(), self.tips.clearance);
         let [a, b] = [0, 1].map(|index| self.row(index.min(rows - 1), z).normal);
         if rows == 2 && (a * b.conj()).re > SIDES_TOGETHER {
             return FailureReason::TwoSides { angle_rad: self.disk.bound() };
@@ -139,118 +138,114 @@ impl Explicit {
         FailureReason::Penetration { depth_m, clearance_m }
     }
 
-    /// Step 2: makes rows of the tips whose gaps may be below `reach`, Eq. (14). Returns how far the
-    /// deepest is beyond its target, and a lower bound on the gaps of all other tips.
-    fn gather(&mut self, z: Plane, tips: &TipLaw, reach: f64) -> (f64, f64) {
+    /// Step 2: makes rows of the tips that are less than `reach` from their targets, Eq. (14).
+    fn gather(&mut self, z: Plane, reach: f64) -> Near {
         self.rows.clear();
+        let mut near = Near { deepest: 0.0, next: f64::INFINITY, dip: 0.0 };
         // A blade angle turns a gap by at most |z| n_d alpha, beside its slope.
-        let look = tips.diameters * self.disk.bound() * (z.re.abs() + z.im.abs());
-        let (mut deepest, mut next) = (0.0_f64, f64::INFINITY);
-        if !self.tips_of_rows.sides.is_empty() && (tips.rise == 0.0 || self.disk.is_pair()) {
-            // Around the polygon at w = z - kappa l_b (alpha_c + i alpha_s) the gap has one minimum.
-            let [c, s] = if tips.rise == 0.0 { [0.0; 2] } else { self.disk.modal() };
-            let w = z - Plane::new(c, s) * tips.rise;
-            let (near, least, [above, below]) = self.tips_of_rows.nearest(self.near, w);
-            let reach = reach + look - tips.clearance;
-            self.near = near;
-            let mut next = f64::min(above, below);
-            if least < reach {
-                deepest = self.add_row(self.tips_of_rows.sides[near].row, z, tips);
-                if next < reach {
-                    (deepest, next) = self.add_neighbours(z, w, reach, deepest, tips);
-                }
-            } else {
-                next = least;
-            }
-            return (deepest, next + tips.clearance - look);
+        let look = self.tips.diameters * self.disk.bound() * (z.re.abs() + z.im.abs());
+        let least = self.tips.clearance - look - self.highest_target();
+        if !self.tips_of_rows.sides.is_empty() && (self.tips.rise == 0.0 || self.disk.is_pair()) {
+            self.gather_around(z, reach, least, &mut near);
+            return near;
         }
         for row in 0..self.tips_of_rows.rows.len() {
             let Tip { normal, longer, .. } = self.tips_of_rows.rows[row];
-            let mut gap =
-                tips.clearance - longer - self.tips_of_rows.out_of_round - look + dot(normal, z);
-            if tips.rise != 0.0 {
-                gap -= self.highest_rise(row, tips);
-            }
-            if gap < reach {
-                deepest = deepest.max(self.add_row(row, z, tips));
+            let tip = least - longer - self.tips_of_rows.out_of_round;
+            let apart = tip + dot(normal, z) - self.highest_rise(row);
+            if apart < reach {
+                self.add_row(row, z, reach, &mut near);
             } else {
-                next = next.min(gap);
+                near.next = near.next.min(apart);
             }
         }
-        (deepest, next)
+        near
     }
 
-    /// Makes rows of the sides on either side of the nearest one, as long as the polygon at `w` is
-    /// below `reach` there. Returns as `gather`, but for the clearance.
-    #[inline]
-    fn add_neighbours(
-        &mut self,
-        z: Plane,
-        w: Plane,
-        reach: f64,
-        mut deepest: f64,
-        tips: &TipLaw,
-    ) -> (f64, f64) {
-        let (sides, mut next) = (self.tips_of_rows.sides.len(), f64::INFINITY);
+    /// As `gather`, where each side of the polygon is one row. Around it, at
+    /// `w = z - kappa l_b (alpha_c + i alpha_s)`, the gap has one minimum, from which on rows are made
+    /// to both sides.
+    #[inline(always)]
+    fn gather_around(&mut self, z: Plane, reach: f64, least: f64, near: &mut Near) {
+        let [c, s] = if self.tips.rise == 0.0 { [0.0; 2] } else { self.disk.modal() };
+        let w = z - Plane::new(c, s) * self.tips.rise;
+        let (nearest, [below, open, above]) = self.tips_of_rows.nearest(self.near, w);
+        self.near = nearest;
+        if least + open >= reach {
+            near.next = least + open;
+            return;
+        }
+        self.add_row(self.tips_of_rows.row_of(nearest), z, reach, near);
+        if least + below.min(above) >= reach {
+            near.next = near.next.min(least + below.min(above));
+            return;
+        }
+        let sides = self.tips_of_rows.sides();
         let mut left = sides - 1;
-        for forward in [true, false] {
-            let mut side = self.tips_of_rows.beside(self.near, forward);
+        for way in [1, sides - 1] {
+            let mut side = (nearest + way) % sides;
             while left > 0 {
-                let open = self.tips_of_rows.open(side, w);
-                if open >= reach {
-                    next = next.min(open);
+                let apart = least + self.tips_of_rows.open(side, w);
+                if apart >= reach {
+                    near.next = near.next.min(apart);
                     break;
                 }
-                deepest = deepest.max(self.add_row(self.tips_of_rows.sides[side].row, z, tips));
-                side = self.tips_of_rows.beside(side, forward);
-                left -= 1;
+                self.add_row(self.tips_of_rows.row_of(side), z, reach, near);
+                (side, left) = ((side + way) % sides, left - 1);
             }
         }
-        (deepest, next)
     }
 
     /// Returns a bound on the outward displacement of a row's tips by the blade angles \[m\].
-    fn highest_rise(&mut self, row: usize, tips: &TipLaw) -> f64 {
+    fn highest_rise(&mut self, row: usize) -> f64 {
+        let rise = self.tips.rise;
+        if rise == 0.0 {
+            return 0.0;
+        }
         if self.disk.is_pair() {
-            return tips.rise * self.disk.angle(row);
+            return rise * self.disk.angle(row);
         }
         let (angles, slack) = self.disk.seen();
-        tips.rise * angles[row % angles.len()] + tips.rise.abs() * slack
+        rise * angles[row % angles.len()] + rise.abs() * slack
     }
 
-    /// Makes a row of a tip. Returns how far it is beyond its target.
+    /// Makes a row of a tip, if it is less than `reach` from its target.
     #[inline(always)]
-    fn add_row(&mut self, index: usize, z: Plane, tips: &TipLaw) -> f64 {
+    fn add_row(&mut self, index: usize, z: Plane, reach: f64, near: &mut Near) {
         let mut row = self.row(index, z);
         if self.restitution != 0.0 {
-            row.apart += self.restitution * self.gap_before(&row, tips);
+            row.apart += self.restitution * self.gap_before(&row);
         }
-        let depth = -row.apart;
+        near.deepest = near.deepest.max(-row.apart);
+        if row.apart >= reach {
+            (near.next, near.dip) = (near.next.min(row.apart), near.dip.max(-row.gap));
+            return;
+        }
         // Of the blades of a side that turn alike only the deepest can hold.
-        let alone = self.tips_of_rows.sides.is_empty() && (tips.rise == 0.0 || self.disk.is_pair());
+        let alone =
+            self.tips_of_rows.sides.is_empty() && (self.tips.rise == 0.0 || self.disk.is_pair());
         match self.rows.iter_mut().find(|known| alone && known.side == row.side) {
             Some(known) if row.apart < known.apart => *known = row,
             Some(_) => {}
             None => self.rows.push(row),
         }
-        depth
     }
 
-    /// Step 3: finds the multipliers of the first `count` rows, Eqs. (12)-(13a).
-    fn find_multipliers(&mut self, count: usize, tips: &TipLaw) -> Result<(), FailureReason> {
+    /// Step 3: finds the multipliers of the rows, Eqs. (12)-(13a).
+    fn find_multipliers(&mut self) -> Result<(), FailureReason> {
+        let Self { rows, several, casing, disk, law, tips, .. } = self;
+        let count = rows.len();
         // Rows that may only push are closed one by one.
-        if count > MOST_ROWS && (self.law.pulls() || tips.rise != 0.0) {
+        if count > MOST_ROWS && (law.pulls() || tips.rise != 0.0) {
             return Err(FailureReason::Rows { rows: count });
         }
-        let Self { rows, several, casing, disk, law, .. } = self;
-        let rows = &mut rows[..count];
         // How far a unit multiplier of `b` closes the gap of `a`.
         let entry = |a: &Row, b: &Row| {
             let push = tips.push_on_casing(b.normal);
             casing.compliance * dot(a.normal, push)
                 + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a.index, b.index)
         };
-        match rows {
+        match &mut rows[..] {
             [row] => row.lambda = row.apart / entry(row, row),
             [a, b] => {
                 let across = entry(a, b);
@@ -263,7 +258,7 @@ impl Explicit {
                 };
                 [a.lambda, b.lambda] = found.ok_or(FailureReason::Singular { rows: 2 })?;
             }
-            _ => {
+            rows => {
                 let gaps = rows.iter().map(|row| row.apart);
                 several.fill(gaps, |a, b| entry(&rows[a], &rows[b]));
                 // Without a slope, three tips may meet in one place of the casing.
@@ -280,84 +275,35 @@ impl Explicit {
         if rows.iter().all(good) { Ok(()) } else { Err(FailureReason::Singular { rows: count }) }
     }
 
-    /// Step 4: corrects casing and blades by the multipliers, Eq. (13b), and records what is left of
-    /// the gaps and where energy went.
-    fn correct(&mut self, z: Plane, turn: Plane, tips: &TipLaw) {
-        let mut shift = Plane::default();
-        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            shift -= tips.push_on_casing(row.normal) * (self.casing.compliance * row.lambda);
-            self.disk.turn(row.index, row.torque(tips));
+    /// Step 4: corrects casing and blades by the multipliers, Eq. (13b), and records impulses,
+    /// impacts and pulls of the rows. Tips that have no row penetrate by `dip`.
+    fn correct(&mut self, z: Plane, turn: Plane, dip: f64) {
+        let Self { rows, tips, casing, disk, record, n, .. } = self;
+        let (mut shift, mut turned) = (Plane::default(), 0.0);
+        let (mut sides, mut pulls) = (ActiveSet::Nothing, false);
+        let (mut set, mut count) = (0_u64, 0);
+        for row in rows.iter().filter(|row| row.lambda != 0.0) {
+            let torque = row.torque(tips);
+            shift -= tips.push_on_casing(row.normal) * (casing.compliance * row.lambda);
+            disk.turn(row.index, torque);
+            turned += torque.abs();
+            record.push(*n, row.side, row.lambda);
+            sides = sides.with(row.side);
+            pulls |= row.lambda > 0.0;
+            set = set.wrapping_add(mark(row.index));
+            count += 1;
         }
         let moved = shift * turn;
         for (at, part) in self.u.iter_mut().zip([moved.re, moved.im]) {
             at.x += part;
             at.increment += part;
         }
-        let asked = self.ledger.counts || self.restitution != 0.0;
-        if !asked && self.most_left(z, shift, tips) <= self.record.deepest {
-            return;
-        }
-        let mut dip = 0.0_f64;
-        for place in 0..self.rows.len() {
-            let row = self.rows[place];
-            let gap = self.row(row.index, z + shift).gap;
-            dip = dip.max(-gap);
-            if self.ledger.counts && row.lambda != 0.0 {
-                let closed = 0.5 * (gap - self.gap_before(&row, tips));
-                let lost = 0.5 * row.lambda * self.lost_clearance();
-                self.ledger.sums.impact_loss_j += row.lambda * closed;
-                self.ledger.sums.growth_work_j -= lost;
-                self.count_push(&row, turn, tips);
-            }
-        }
-        self.record.deepest = self.record.deepest.max(dip);
-        self.dips = [dip, self.dips[0]];
-    }
-
-    /// Returns a bound on the gaps that a correction leaves, by terms of second order in its shift
-    /// and in the blade phases that it turns, and by round-off \[m\].
-    fn most_left(&self, z: Plane, shift: Plane, tips: &TipLaw) -> f64 {
+        // A correction leaves terms of second order in its shift and in the blade phases it turns.
+        let phase = self.tips.diameters * turned * self.disk.most_turned();
         let size = |at: Plane| at.re.abs() + at.im.abs();
-        let (mut turned, mut pushes) = (0.0, 0.0);
-        for row in &self.rows {
-            turned += row.torque(tips).abs() * self.disk.most_turned();
-            pushes += row.lambda.abs();
-        }
-        let (z, shift, phase) = (size(z), size(shift), tips.diameters * turned);
-        let rounded = tips.clearance + z + self.casing.compliance * pushes;
-        (z + shift) * phase * phase + shift * phase + ROUND_OFF * rounded
-    }
-
-    /// Returns the highest target of a step, `-e g[n-1]` of the deepest row \[m\].
-    fn highest_target(&self) -> f64 {
-        self.restitution * self.dips[0].max(self.dips[1])
-    }
-
-    /// Returns the gap of a row two steps before \[m\].
-    fn gap_before(&self, row: &Row, tips: &TipLaw) -> f64 {
-        let [c, s] = self.moved();
-        let (turn, lobe_turn) = self.drive.turns_before(self.n, 2);
-        let z = Plane::new(self.u[0].x - c, self.u[1].x - s) * turn.conj();
-        let angle = self.disk.angle_before(row.index);
-        let gap = self.tips_of_rows.row(row.index, z, angle, lobe_turn, tips).gap;
-        gap + self.lost_clearance()
-    }
-
-    /// Returns the motion of the casing over the last two steps \[m\].
-    pub(super) fn moved(&self) -> [f64; 2] {
-        [0, 1].map(|k| self.u[k].increment + self.before[k])
-    }
-
-    /// Records impulses, impacts and pulls of the rows, and since when they are the same.
-    fn keep_rows(&mut self) {
-        let (mut sides, mut pulls) = (ActiveSet::Nothing, false);
-        let (mut set, mut count) = (0_u64, 0);
-        for row in self.rows.iter().filter(|row| row.lambda != 0.0) {
-            self.record.push(self.n, row.side, row.lambda);
-            sides = sides.with(row.side);
-            pulls |= row.lambda > 0.0;
-            set = set.wrapping_add(mark(row.index));
-            count += 1;
+        let left = (size(z) + size(shift)) * phase * phase + size(shift) * phase;
+        if self.ledger.counts || self.restitution != 0.0 || left > self.record.deepest {
+            self.look_at_left(z + shift, turn, dip);
         }
         if sides == ActiveSet::Nothing {
             return self.end_contact_after_pause();
@@ -368,6 +314,45 @@ impl Explicit {
         if sides == ActiveSet::Many {
             self.record.log.since = since;
         }
+    }
+
+    /// Records what the correction has left of the gaps, and where energy went; other tips penetrate
+    /// by `dip`.
+    fn look_at_left(&mut self, z: Plane, turn: Plane, mut dip: f64) {
+        for place in 0..self.rows.len() {
+            let row = self.rows[place];
+            let gap = self.row(row.index, z).gap;
+            dip = dip.max(-gap);
+            if self.ledger.counts && row.lambda != 0.0 {
+                let closed = 0.5 * (gap - self.gap_before(&row));
+                let lost = 0.5 * row.lambda * self.lost_clearance();
+                self.ledger.sums.impact_loss_j += row.lambda * closed;
+                self.ledger.sums.growth_work_j -= lost;
+                self.count_push(&row, turn);
+            }
+        }
+        self.record.deepest = self.record.deepest.max(dip);
+        self.dips = [dip, self.dips[0]];
+    }
+
+    /// Returns the highest target of a step, `-e g[n-1]` of the deepest row \[m\].
+    fn highest_target(&self) -> f64 {
+        self.restitution * self.dips[0].max(self.dips[1])
+    }
+
+    /// Returns the gap of a row two steps before \[m\].
+    fn gap_before(&self, row: &Row) -> f64 {
+        let [c, s] = self.moved();
+        let (turn, lobe_turn) = self.drive.turns_before(self.n, 2);
+        let z = Plane::new(self.u[0].x - c, self.u[1].x - s) * turn.conj();
+        let angle = self.disk.angle_before(row.index);
+        let gap = self.tips_of_rows.row(row.index, z, angle, lobe_turn, &self.tips).gap;
+        gap + self.lost_clearance()
+    }
+
+    /// Returns the motion of the casing over the last two steps \[m\].
+    pub(super) fn moved(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.u[k].increment + self.before[k])
     }
 
     /// Records a step without contact.
@@ -396,19 +381,24 @@ impl Explicit {
             return;
         }
         self.next_look = self.n + self.steps_unseen;
-        let rise = self.tips.rise.abs();
-        let swing = if rise == 0.0 { 0.0 } else { rise * self.disk.swing() };
+        let swing = self.tip_swing();
         self.lasting.look(self.drive.time_of(self.n), Plane::default(), Plane::default(), swing);
+    }
+
+    /// Returns the outward swing of the tips by the blades \[m\].
+    pub(super) fn tip_swing(&mut self) -> f64 {
+        let rise = self.tips.rise.abs();
+        if rise == 0.0 { 0.0 } else { rise * self.disk.swing() }
     }
 
     /// Checks that the casing is within its radius, and that its surface moves more slowly than
     /// the tips along it, as friction assumes.
-    fn check_range(&self, distance2: f64, tips: &TipLaw) -> Result<(), FailureReason> {
+    fn check_range(&self, distance2: f64) -> Result<(), FailureReason> {
         let radius_m = self.scene.casing.radius_m;
         if distance2.is_nan() || distance2 > radius_m * radius_m {
             return Err(FailureReason::Displacement { distance_m: distance2.sqrt(), radius_m });
         }
-        if tips.casing_friction == 0.0 {
+        if self.tips.casing_friction == 0.0 {
             return Ok(());
         }
         let [c, s] = self.u.map(|at| at.increment);
