@@ -63,6 +63,9 @@
 //! variants (`non_exhaustive`). Verdicts, laws and solvers are exhaustive enums: the compiler
 //! reports every `match` that lacks a newly added variant.
 
+// The program of the README is a test too.
+#![cfg_attr(doctest, doc = include_str!("../README.md"))]
+
 pub mod harmonic;
 pub mod model;
 pub mod motion;

@@ -38,7 +38,7 @@ pub const WHY_NONE: &str = "the run of the reference fails before its end";
 /// Describes verdict, method and error of the reference in a few words.
 pub fn reference_words(reference: &Reference) -> String {
     let method = match reference.method {
-        Method::Events => "by events",
+        Method::Events => "no time steps",
         Method::FinestStep => "finest step",
         Method::None => return format!("none: {WHY_NONE}"),
     };

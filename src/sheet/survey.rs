@@ -243,8 +243,8 @@ pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
     let [mean, equal] = speeds.map(|omega| with_unit(omega, 4, "rad/s"));
     let of = match scene.is_uneven() {
-        true => "the tips and the casing of the scene. Equal tips in a round casing lock last",
-        false => "equal tips in a round casing, which lock last",
+        true => "the tips and the casing of the scene; equal tips have the highest lock speed",
+        false => "equal tips in a round casing; unequal tips lock at lower speeds",
     };
     format!(
         "The limits are for {of}. Tips that differ by 1 % of the clearance lock from {mean} \

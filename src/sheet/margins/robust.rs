@@ -25,7 +25,7 @@ pub fn asked(margins: &Margins) -> impl Iterator<Item = &Robustness> {
 pub fn sentence(found: &Robustness, margins: &Margins, wide: bool) -> String {
     let scene = &margins.scene;
     let law = match found.contact {
-        ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, by events",
+        ContactLaw::Unilateral if found.solver != scene.solver.kind => "pushes only, event solver",
         ContactLaw::Unilateral => "pushes only",
         ContactLaw::Bilateral => "bilateral law",
         ContactLaw::Smooth => "smooth law",

@@ -160,7 +160,7 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let [first, second] =
         if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
     let law = app.scene.solver.contact;
-    let own = format!("{}: {}", law, app.verdict_word());
+    let own = Page::casing(format!("{}: {}", law, app.verdict_word()), app);
     let comparison = app.results().comparison.as_ref();
     let word =
         comparison.map_or("...".to_string(), |outcome| outcome.verdict.as_ref().to_uppercase());
@@ -170,7 +170,6 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
         own: false,
         ..Page::casing(format!("{}: {word}", law.other()), app)
     };
-    let own = Page::casing(own, app);
     if let Err(why) = other_law(&app.scene) {
         page(app, buffer, first, &own);
         return refused(app, buffer, second, &theirs.name, &clean(&why.to_string()));

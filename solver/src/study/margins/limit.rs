@@ -183,7 +183,7 @@ impl LimitName {
     fn entry(self) -> (Quantity, &'static str, [&'static str; 2], &'static str) {
         use Quantity::{Pulse, Push, Speed};
         match self {
-            Self::OmegaC => (Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave is pushed outward"),
+            Self::OmegaC => (Speed, "Ω_c", ["Ω_c"; 2], "critical speed: above it the wave presses against the blades"),
             Self::OmegaAdhesive => (Speed, "Ω_adhesive", ["adhesive limit", "adhesive"], "above it the bilateral law locks; one group pulls"),
             Self::OmegaLock => (Speed, "Ω_lock", ["Ω_lock"; 2], "lowest speed at which both groups of a lock push"),
             Self::LockEnds => (Speed, "Ω_ends", ["lock ends"; 2], "highest speed at which both groups of a lock push"),
