@@ -1,5 +1,5 @@
 //! `rubscope man` and `rubscope completions`: manual pages and shell completions generated from
-//! the clap definition. Some sections of the pages are written here.
+//! the clap definition. The sections that do not follow from it are in `assets/manual.man`.
 
 use std::io::Write;
 
@@ -13,6 +13,9 @@ use rubscope_solver::scene::BUILTIN;
 
 /// The change log. The date of its newest version is the date of the manual pages.
 const CHANGES: &str = include_str!("../../CHANGELOG.md");
+
+/// Exit status, environment, files and examples, in roff.
+const MANUAL: &str = include_str!("../../assets/manual.man");
 
 /// Print the manual page, or that of one command.
 #[derive(Args, Debug)]
@@ -39,7 +42,8 @@ impl ManCommand {
             page.render_description_section(out)?;
             page.render_options_section(out)?;
             page.render_subcommands_section(out)?;
-            added().to_writer(out)?;
+            scenes_and_keys().to_writer(out)?;
+            out.write_all(MANUAL.as_bytes())?;
             page.render_version_section(out)?;
         }
         Ok(Status::Done)
@@ -66,71 +70,8 @@ fn page_of(whole: &clap::Command, name: &str) -> Result<clap::Command, Refusal> 
     })
 }
 
-/// Each exit status and its meaning.
-const EXIT_STATUS: &[(&str, &str)] = &[
-    ("0", "Done."),
-    ("1", "Failed: a file could not be written, or the computation broke down."),
-    ("2", "Wrong usage or refused input; one line names the key, the value and what is allowed."),
-    ("128+n", "Ended by signal n."),
-];
-
-/// Environment variables that the explorer reads, and what they do.
-const ENVIRONMENT: &[(&str, &str)] = &[
-    (
-        "NO_COLOR",
-        "Not empty: no colours, unless --color or --theme is given; bold and reverse are kept.",
-    ),
-    (
-        "COLORFGBG",
-        "Such as 0;15: the last number is the background, by which the explorer chooses its \
-         theme. Without it, the explorer asks the terminal, and draws on a dark background until \
-         it answers.",
-    ),
-    (
-        "XDG_CONFIG_HOME, HOME",
-        "The folder of rubscope/config.toml, or of .config/rubscope/config.toml.",
-    ),
-    (
-        "TERM",
-        "dumb: the explorer runs without a screen, as with --lines. linux, vt100 and \
-         similar: the explorer draws with ASCII characters only, unless --marker is given.",
-    ),
-    (
-        "LC_ALL, LC_CTYPE, LANG",
-        "The first that is not empty is the locale. If it is not one of UTF-8, or none is set, \
-         the explorer draws with ASCII characters only, unless --marker is given.",
-    ),
-    (
-        "SSH_CONNECTION, SSH_TTY",
-        "Set: the explorer assumes a slow connection, unless --line is given.",
-    ),
-];
-
-/// Files that the program reads or writes without being asked, and what they contain.
-const FILES: &[(&str, &str)] = &[(
-    "~/.config/rubscope/config.toml",
-    "Settings that the explorer remembers: theme, marker, number of charts, mouse. Options \
-     override them; --no-config ignores the file. It may be deleted at any time.",
-)];
-
-const EXAMPLES: &[(&str, &str)] = &[
-    ("rubscope", "Open the explorer on the default scene."),
-    ("rubscope run adhesive", "Simulate a built-in scene and report how it ends."),
-    (
-        "rubscope run --contact unilateral --speed -430 --json",
-        "The default scene with contact that only pushes, the rotor turning the other way, as JSON.",
-    ),
-    ("rubscope hbm --speed 0:500:501", "The locked motion against rotor speed."),
-    ("rubscope map --speed 250:500:51 --pulse 1e4:1e6:25", "Which pulses lock at which speeds."),
-    ("rubscope figures --out figures", "The figures of the paper."),
-    (
-        "rubscope run my.toml --set bladed_disk.blades=24 --out history.csv",
-        "A scene file with one key changed; the history goes to a CSV file.",
-    ),
-];
-
-/// Returns the sections that clap does not generate.
-fn added() -> Roff {
+/// Returns the scenes and the keys of the explorer.
+fn scenes_and_keys() -> Roff {
     let mut page = Roff::new();
     page.control("SH", ["SCENES"]);
     let names: Vec<&str> = BUILTIN.iter().map(|scene| scene.name).collect();
@@ -140,24 +81,13 @@ fn added() -> Roff {
          and the file over the default.",
         names.join(", ")
     ))]);
-    list(&mut page, "KEYS", table::main().map(|b| (keys_text(b), b.what)));
-    let owned = |entries: &'static [(&str, &'static str)]| {
-        entries.iter().map(|(term, text)| (term.to_string(), *text))
-    };
-    list(&mut page, "EXIT STATUS", owned(EXIT_STATUS));
-    list(&mut page, "ENVIRONMENT", owned(ENVIRONMENT));
-    list(&mut page, "FILES", owned(FILES));
-    list(&mut page, "EXAMPLES", owned(EXAMPLES));
-    page
-}
-
-fn list(page: &mut Roff, heading: &str, entries: impl Iterator<Item = (String, &'static str)>) {
-    page.control("SH", [heading]);
-    for (term, text) in entries {
+    page.control("SH", ["KEYS"]);
+    for binding in table::main() {
         page.control("TP", []);
-        page.text([bold(term)]);
-        page.text([roman(text)]);
+        page.text([bold(keys_text(binding))]);
+        page.text([roman(binding.what)]);
     }
+    page
 }
 
 /// Print completions for a shell.

@@ -4,11 +4,10 @@ use std::io::Write;
 use std::time::Instant;
 
 use clap::Args;
-use serde_json::json;
 
 use super::options::SceneOptions;
 use super::output::OutputOptions;
-use super::script::{self, RequestedScript};
+use super::script::RequestedScript;
 use super::sign;
 use super::status::{self, Done, Refusal, Status};
 use crate::sheet::history::HISTORY_VALUES;
@@ -53,8 +52,8 @@ impl RunCommand {
             }
             scene = scene.by_every_step();
         }
-        let script = RequestedScript::resolve(&script::parse(&self.at)?, &scene)?;
-        let acts = script.changes();
+        let script = RequestedScript::of(&self.at, &scene)?;
+        let acts = &script.changes;
         self.output.ending()?;
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
         let most = History::most_samples(gaps);
@@ -75,17 +74,16 @@ impl RunCommand {
         status::say_noted();
         let started = Instant::now();
         let mut sink = |sample: &Sample| history.push(sample);
-        let mut report = run_to_end(&scene, &acts, sampling, &mut sink);
+        let mut report = run_to_end(&scene, acts, sampling, &mut sink);
         let mut wall = Wall { run_s: started.elapsed().as_secs_f64(), certainty_s: None };
         if !self.no_sensitivity {
             sign::doing("extra runs determine which digits are reliable");
             let started = Instant::now();
-            report.ask_changed_runs(&acts, &to_the_end);
-            report.ask_events(&acts, &to_the_end);
+            report.ask_changed_runs(acts, &to_the_end);
+            report.ask_events(acts, &to_the_end);
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
-        let changes = Some(&script).filter(|script| !script.is_empty());
-        let changes = changes.map(|script| (script.to_string(), json!(script)));
+        let changes = (script.words.join(", "), script.json);
         let sheet = summary::sheet(&report, wall, changes, &history, self.command(&scene));
         self.output.deliver(&sheet, out)?;
         Ok(match report.outcome.verdict {

@@ -1,60 +1,78 @@
-//! Changes of a running motion: `--at TIME:PATH=VALUE` and `--at TIME:pulse`.
-//! The rules are those of live knobs in the explorer, so that changes made on
-//! the screen can be repeated without it.
-//!
-//! `parse` reads the options, `RequestedScript::resolve` checks them against a
-//! scene before anything is simulated, and `RequestedScript::changes` gives the
-//! changes of the motion.
+//! Changes of a running motion: `--at TIME:PATH=VALUE` and `--at TIME:pulse`. The rules are those of
+//! live knobs in the explorer, so that changes made on the screen can be repeated without it.
 
-use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
 
 use super::status::Refusal;
 use crate::sheet::number::time;
 use rubscope_solver::motion;
 use rubscope_solver::scene::keys::{self, Live, SPEED};
 use rubscope_solver::scene::units::UnitError;
-use rubscope_solver::scene::{CheckedScene, KEYS, Key, Quantity, SolverKind, Value};
+use rubscope_solver::scene::{CheckedScene, KEYS, Key, Quantity, SolverKind};
 
 /// Name of the option, for error messages.
 const OPTION: &str = "--at";
 /// Word that fires the pulse, in place of a key.
 const PULSE: &str = "pulse";
 
-/// One change of a running motion.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RequestedChange {
-    /// Fires the pulse.
-    Pulse,
-    /// Sets a key of the scene to a value.
-    Set {
-        /// Dotted path of the key.
-        path: String,
-        /// The value, as typed.
-        value: String,
-    },
+/// The changes of a run, in order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RequestedScript {
+    /// The changes in words, such as `operation.speed_rad_s=480 at 10 ms`.
+    pub words: Vec<String>,
+    /// The changes as they appear in JSON reports, with the checked values of their keys.
+    pub json: Vec<Value>,
+    /// The operations of the solver that make the changes.
+    pub changes: motion::Script,
 }
 
-impl std::fmt::Display for RequestedChange {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Pulse => out.write_str(PULSE),
-            Self::Set { path, value } => write!(out, "{path}={value}"),
+impl RequestedScript {
+    /// Reads the options, and checks each change on the scene with the earlier ones applied. Changes
+    /// at the same time keep their order.
+    ///
+    /// # Errors
+    /// The first option that has another form, or the first change that is refused: its time is
+    /// outside the run, its key does not exist or cannot change during this run, or its value is
+    /// not allowed.
+    pub fn of(options: &[String], scene: &CheckedScene) -> Result<Self, Refusal> {
+        let mut requested =
+            options.iter().map(|text| parsed(text)).collect::<Result<Vec<_>, _>>()?;
+        requested.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let (mut script, mut acts) = (Self::default(), Vec::new());
+        let mut scene = scene.clone();
+        for (t_s, change) in requested {
+            let told = match &change {
+                None => PULSE.to_string(),
+                Some((path, value)) => format!("{path}={value}"),
+            };
+            let shown = format!("{t_s}:{told}");
+            let end = scene.solver.end_s;
+            if !(0.0..=end).contains(&t_s) {
+                let allowed = format!("a time from 0 to solver.end_s = {end}");
+                return Err(Refusal::of(OPTION, shown, allowed));
+            }
+            let mut own = vec![motion::Change::Pulse];
+            let mut json = json!({ "t_s": t_s, "pulse": true });
+            if let Some((path, value)) = change {
+                let after = changed(t_s, [&path, &value], &scene, &shown)?;
+                own = acts_of(&path, &scene, &after);
+                let value = keys::find(&path).map(|key| (key.get)(&after)).ok();
+                json = json!({ "t_s": t_s, "path": path, "value": value });
+                scene = after;
+            }
+            acts.extend(own.into_iter().map(|act| (t_s, act)));
+            script.words.push(format!("{told} at {}", time(t_s)));
+            script.json.push(json);
         }
+        Ok(Self { changes: motion::Script::new(acts), ..script })
     }
 }
 
-/// Parses the `--at` options and sorts them by time \[s\]; changes at the same time keep their
-/// order.
-///
-/// # Errors
-/// An option is not `TIME:PATH=VALUE` or `TIME:pulse`.
-pub fn parse(options: &[String]) -> Result<Vec<(f64, RequestedChange)>, Refusal> {
-    let mut changes = options.iter().map(|text| parse_one(text)).collect::<Result<Vec<_>, _>>()?;
-    changes.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    Ok(changes)
-}
+/// A change as requested: its time \[s\], and the key with its value as typed; `None` fires the
+/// pulse.
+type Requested = (f64, Option<(String, String)>);
 
-fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
+fn parsed(text: &str) -> Result<Requested, Refusal> {
     let form = || {
         let allowed = "TIME:PATH=VALUE or TIME:pulse, with TIME in seconds or as 0.3ms";
         Refusal::of(OPTION, text, allowed)
@@ -65,70 +83,51 @@ fn parse_one(text: &str) -> Result<(f64, RequestedChange), Refusal> {
         why => Refusal::because(format!("{OPTION} {text}: {why}")),
     })?;
     let change = match change.split_once('=') {
-        Some((path, value)) => {
-            RequestedChange::Set { path: path.trim().into(), value: value.trim().into() }
-        }
-        None if change.trim() == PULSE => RequestedChange::Pulse,
+        Some((path, value)) => Some((path.trim().into(), value.trim().into())),
+        None if change.trim() == PULSE => None,
         None => return Err(form()),
     };
     // Adding zero turns -0 into 0, which sorts as the same time.
     Ok((time + 0.0, change))
 }
 
-/// A checked change, and the scene with it applied.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RequestedStep {
-    /// Simulated time of the change \[s\].
-    pub t_s: f64,
-    /// The change as the user requested it.
-    pub change: RequestedChange,
-    /// The scene with this and all earlier changes applied.
-    pub scene: CheckedScene,
-    /// The operations of the solver that make the change.
-    acts: Vec<motion::Change>,
+/// Returns the scene with a key changed at a time of the run; `shown` is the change for messages.
+fn changed(
+    t_s: f64,
+    [path, value]: [&str; 2],
+    before: &CheckedScene,
+    shown: &str,
+) -> Result<CheckedScene, Refusal> {
+    let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
+    let key = keys::find(path).map_err(refused)?;
+    let fixed = || Refusal::of(OPTION, shown, live_keys(before));
+    if !acts_live(key, before) {
+        return Err(fixed());
+    }
+    let mut running = before.clone().into_scene();
+    if t_s > 0.0 {
+        // A change of the gaps is checked at rest, because the displacement at time t is unknown;
+        // the solver handles any overlap.
+        (running.initial.u_c_m, running.initial.u_s_m) = (0.0, 0.0);
+    }
+    let after = running.with(&[(path, value)]).map_err(refused)?;
+    after.slides().map_err(refused)?;
+    if key.live != Live::Always && !motion::Change::is_live(before, &after) {
+        let crossed = motion::Change::crosses(before, &after);
+        return Err(crossed.map_or_else(fixed, |why| Refusal::of(OPTION, shown, why)));
+    }
+    Ok(after)
 }
 
-impl RequestedStep {
-    fn of(t_s: f64, change: &RequestedChange, before: &CheckedScene) -> Result<Self, Refusal> {
-        let shown = format!("{t_s}:{change}");
-        let end = before.solver.end_s;
-        if !(0.0..=end).contains(&t_s) {
-            let allowed = format!("a time from 0 to solver.end_s = {end}");
-            return Err(Refusal::of(OPTION, shown, allowed));
-        }
-        let step = |scene, acts| Self { t_s, change: change.clone(), scene, acts };
-        let RequestedChange::Set { path, value } = change else {
-            return Ok(step(before.clone(), vec![motion::Change::Pulse]));
-        };
-        let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
-        let key = keys::find(path).map_err(refused)?;
-        let fixed = || Refusal::of(OPTION, &shown, live_keys(before));
-        if !acts_live(key, before) {
-            return Err(fixed());
-        }
-        let mut running = before.clone().into_scene();
-        if t_s > 0.0 {
-            // A change of the gaps is checked at rest, because the displacement at time t is
-            // unknown; the solver handles any overlap.
-            (running.initial.u_c_m, running.initial.u_s_m) = (0.0, 0.0);
-        }
-        let scene = running.with(&[(path, value)]).map_err(refused)?;
-        scene.slides().map_err(refused)?;
-        if key.live != Live::Always && !motion::Change::is_live(before, &scene) {
-            return Err(match motion::Change::crosses(before, &scene) {
-                Some(why) => Refusal::of(OPTION, &shown, why),
-                None => fixed(),
-            });
-        }
-        let mut acts = motion::Change::between(before, &scene);
-        if path == SPEED && before.operation.speed_rad_s == scene.operation.speed_rad_s {
-            // With a speed ramp, setting the initial speed again still changes the motion.
-            let (speed, ramp) =
-                (Some(scene.operation.speed_rad_s), scene.operation.speed_ramp_rad_s2);
-            acts.insert(0, motion::Change::Rotor { speed, ramp });
-        }
-        Ok(step(scene, acts))
+/// Returns the operations of the solver that change a key.
+fn acts_of(path: &str, before: &CheckedScene, after: &CheckedScene) -> Vec<motion::Change> {
+    let mut acts = motion::Change::between(before, after);
+    let (speed, ramp) = (after.operation.speed_rad_s, after.operation.speed_ramp_rad_s2);
+    if path == SPEED && before.operation.speed_rad_s == speed {
+        // With a speed ramp, setting the initial speed again still changes the motion.
+        acts.insert(0, motion::Change::Rotor { speed: Some(speed), ramp });
     }
+    acts
 }
 
 /// Returns whether a key may change while the motion of a scene runs with the solver of the scene.
@@ -143,74 +142,4 @@ fn live_keys(scene: &CheckedScene) -> String {
         KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
     let solver = scene.solver.kind;
     format!("{PULSE}, or a key that a running {solver} motion takes: {}", keys.join(", "))
-}
-
-/// Checked changes, in order of time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RequestedScript(Vec<RequestedStep>);
-
-impl RequestedScript {
-    /// Checks changes that are sorted by time, each on the scene with the earlier ones applied.
-    ///
-    /// # Errors
-    /// The first change that is refused: its time is outside the run, its key does not exist or
-    /// cannot change during this run, or its value is not allowed.
-    pub fn resolve(
-        changes: &[(f64, RequestedChange)],
-        scene: &CheckedScene,
-    ) -> Result<Self, Refusal> {
-        let mut steps: Vec<RequestedStep> = Vec::with_capacity(changes.len());
-        for (t_s, change) in changes {
-            let before = steps.last().map_or(scene, |step| &step.scene);
-            let step = RequestedStep::of(*t_s, change, before)?;
-            steps.push(step);
-        }
-        Ok(Self(steps))
-    }
-
-    /// Returns whether there are no changes.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Returns the changes as operations of the solver, each with its time.
-    pub fn changes(&self) -> motion::Script {
-        let acts =
-            |step: &RequestedStep| step.acts.iter().map(|act| (step.t_s, act.clone())).collect();
-        motion::Script::new(self.0.iter().flat_map::<Vec<_>, _>(acts).collect())
-    }
-}
-
-impl std::fmt::Display for RequestedScript {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        for (index, step) in self.0.iter().enumerate() {
-            let comma = if index == 0 { "" } else { ", " };
-            write!(out, "{comma}{} at {}", step.change, time(step.t_s))?;
-        }
-        Ok(())
-    }
-}
-
-impl Serialize for RequestedScript {
-    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        out.collect_seq(self.0.iter().map(as_json))
-    }
-}
-
-/// Returns a change as it appears in JSON reports, with the checked value of its key.
-fn as_json(step: &RequestedStep) -> serde_json::Value {
-    let t_s = step.t_s;
-    match &step.change {
-        RequestedChange::Pulse => serde_json::json!({ "t_s": t_s, "pulse": true }),
-        RequestedChange::Set { path, value } => {
-            let value = match keys::find(path).map(|key| (key.get)(&step.scene)) {
-                Ok(Value::Real(x)) => serde_json::json!(x),
-                Ok(Value::Whole(n)) => serde_json::json!(n),
-                Ok(Value::Text(word)) => serde_json::json!(word),
-                Ok(Value::Numbers(list)) => serde_json::json!(list),
-                Ok(Value::Words(_)) | Err(_) => serde_json::json!(value),
-            };
-            serde_json::json!({ "t_s": t_s, "path": path, "value": value })
-        }
-    }
 }

@@ -34,7 +34,7 @@ pub struct Refusal(String);
 impl Refusal {
     /// Refuses the `value` of `name` (an option or argument as typed), and says what is allowed.
     pub fn of(name: &str, value: impl std::fmt::Display, allowed: impl std::fmt::Display) -> Self {
-        Self(format!("{name} = {value}: allowed is {allowed}"))
+        Self(SceneError::refused(name, value, allowed.to_string()).to_string())
     }
 
     /// Refuses the input with this reason.

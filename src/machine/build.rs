@@ -58,7 +58,7 @@ pub struct ModalData {
 }
 
 impl ModalData {
-    /// Writes the scene file, with a comment on every key.
+    /// Fills in the scene file `assets/machine.toml`, which has a comment on every key.
     ///
     /// # Errors
     /// Names the key whose value no scene can have.
@@ -71,89 +71,40 @@ impl ModalData {
         let casing = own(&self.casing, keys::CASING_MODES)?;
         let disk = own(&self.disk, keys::DISK_MODES)?;
         let length = digits(self.radius_m - self.clearance_m);
-        let inertia = self.inertia(&disk, length);
         let of_disk = disk.damping_ratio.filter(|_| self.disk.len() == 1);
         let damping = of_disk.unwrap_or(self.damping_ratios[1]);
         let (stiffness, coupling) = self.springs(&disk, length);
-        let omega = TAU * casing.frequency_hz;
-        let mut text = String::new();
-        let mut line = |line: &str| {
-            text.push_str(line);
-            text.push('\n');
-        };
-        line("# A machine for rubscope. All numbers are in SI units; a number with another unit");
-        line("# stands in quotes: speed_rad_s = \"9500 rpm\", pulse_n = \"2 kN\".");
-        line("schema = 1");
-        line(&format!("title = {}", toml::Value::from(self.title.as_str())));
-        line("");
-        line("[bladed_disk]");
-        line(&format!("blades = {}  # number of blades N", self.blades));
-        line(&format!("blade_length_m = {length:?}  # from the axis to the tip l_b, m"));
-        line(&format!("inertia_kg_m2 = {inertia:?}  # of one blade about the axis m_b, kg m^2"));
-        line(&format!(
-            "stiffness_nm_per_rad = {stiffness:?}  # of a blade on the disk k_b, N m/rad"
-        ));
-        line(&format!("coupling_nm_per_rad = {coupling:?}  # between two blades k_bb, N m/rad"));
-        line(&format!("damping_ratio = {damping:?}  # of every blade mode"));
+        let casing_stiffness = casing.modal_mass_kg * (TAU * casing.frequency_hz).powi(2);
         // A single mode, with the nodal diameters in use, needs no list.
-        let listed = self.disk.len() > 1 || disk.nodal_diameters != self.nodal_diameters;
-        let stiffening = disk.stiffening.unwrap_or(0.0);
-        line(&format!("centrifugal_stiffening = {stiffening:?}  # B: omega^2 + B Omega^2"));
-        if listed {
-            line("");
-            line("# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2. Nodal");
-            line("# diameters without a mode have the values above.");
-        }
-        for mode in self.disk.iter().filter(|_| listed) {
-            line("[[bladed_disk.modes]]");
-            line(&format!("nodal_diameters = {}", mode.nodal_diameters));
-            line(&format!("frequency_hz = {:?}", mode.frequency_hz));
-            let inertia = self.inertia(mode, length);
-            line(&format!("inertia_kg_m2 = {inertia:?}"));
-            for (name, value) in
-                [("damping_ratio", mode.damping_ratio), (STIFFENING, mode.stiffening)]
-            {
-                value.iter().for_each(|value| line(&format!("{name} = {value:?}")));
-            }
-        }
-        line("");
-        line("[casing]");
-        line(&format!("radius_m = {:?}  # inner radius R_c, m", self.radius_m));
-        line(&format!(
-            "modal_mass_kg = {:?}  # m_c, kg; for nodal diameters without a mode below",
-            casing.modal_mass_kg
-        ));
-        let stiffness = digits(casing.modal_mass_kg * omega * omega);
-        line(&format!("modal_stiffness_n_per_m = {stiffness:?}  # k_c, N/m; likewise"));
-        line(&format!("damping_ratio = {:?}  # of every casing mode", self.damping_ratios[0]));
-        line("");
-        line("# Modes of the casing: frequency in Hz, modal mass in kg.");
-        for mode in &self.casing {
-            line("[[casing.modes]]");
-            line(&format!("nodal_diameters = {}", mode.nodal_diameters));
-            line(&format!("frequency_hz = {:?}", mode.frequency_hz));
-            line(&format!("modal_mass_kg = {:?}", mode.modal_mass_kg));
-            if let Some(ratio) = mode.damping_ratio {
-                line(&format!("damping_ratio = {ratio:?}"));
-            }
-        }
-        line("");
-        line("[operation]");
-        line(&format!("nodal_diameters = {}  # of the modes in use n_d", self.nodal_diameters));
-        line(&format!("speed_rad_s = {:?}  # rotor speed, rad/s", digits(self.speed_rad_s)));
-        line(&format!("pulse_n = {:?}  # force that starts the motion, N", self.pulse_n));
-        line("pulse_s = 50e-6  # its length, s");
-        line("");
-        line("[solver]");
-        line("kind = \"event\"  # or explicit: time steps");
-        line("contact = \"unilateral\"  # contact only pushes");
-        line("model = \"modal\"  # rigid, modal or full");
-        let end = 1e-2 * (4e4 / casing.frequency_hz).ceil();
-        line(&format!("end_s = {end:?}  # end of a run, s"));
-        line("");
-        line("[view]");
-        let speeds = toml::Value::from(self.speeds.as_str());
-        line(&format!("speeds = {speeds}  # of the machine, for the survey"));
+        let is_listed = self.disk.len() > 1 || disk.nodal_diameters != self.nodal_diameters;
+        let of_disk = |mode| listed_mode(mode, Some(self.inertia(mode, length)));
+        let disk_modes = match is_listed {
+            true => OF_DISK.to_string() + &self.disk.iter().map(of_disk).collect::<String>(),
+            false => String::new(),
+        };
+        let text = format!(
+            include_str!("../../assets/machine.toml"),
+            title = toml::Value::from(self.title.as_str()),
+            blades = self.blades,
+            length = length,
+            inertia = self.inertia(&disk, length),
+            stiffness = stiffness,
+            coupling = coupling,
+            damping = damping,
+            stiffening = disk.stiffening.unwrap_or(0.0),
+            disk_modes = disk_modes,
+            radius_m = self.radius_m,
+            casing_mass = casing.modal_mass_kg,
+            casing_stiffness = digits(casing_stiffness),
+            casing_damping = self.damping_ratios[0],
+            casing_modes =
+                self.casing.iter().map(|mode| listed_mode(mode, None)).collect::<String>(),
+            nodal_diameters = self.nodal_diameters,
+            speed = digits(self.speed_rad_s),
+            pulse_n = self.pulse_n,
+            end = 1e-2 * (4e4 / casing.frequency_hz).ceil(),
+            speeds = toml::Value::from(self.speeds.as_str()),
+        );
         Scene::from_toml(&text)?;
         Ok(text)
     }
@@ -184,6 +135,27 @@ impl ModalData {
             false => (digits(whole(mode)), 0.0),
         }
     }
+}
+
+/// Comment above the modes of the disk.
+const OF_DISK: &str = "\n# Modes of the disk: frequency in Hz, inertia of a blade in kg m^2. Nodal\n# \
+    diameters without a mode have the values above.\n";
+
+/// Returns a mode as an entry of the list of the casing or, with the inertia of a blade
+/// \[kg m^2\], of that of the disk.
+fn listed_mode(mode: &Family, inertia: Option<f64>) -> String {
+    let part = if inertia.is_some() { "bladed_disk" } else { "casing" };
+    let values = [
+        ("frequency_hz", Some(mode.frequency_hz)),
+        ("modal_mass_kg", Some(mode.modal_mass_kg).filter(|_| inertia.is_none())),
+        ("inertia_kg_m2", inertia),
+        ("damping_ratio", mode.damping_ratio),
+        (STIFFENING, mode.stiffening.filter(|_| inertia.is_some())),
+    ];
+    let given = values.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    let lines = given.map(|(name, value)| format!("{name} = {value:?}\n"));
+    let head = format!("[[{part}.modes]]\nnodal_diameters = {}\n", mode.nodal_diameters);
+    head + &lines.collect::<String>()
 }
 
 /// Rounds a number for the file, so that round-off does not show.

@@ -111,6 +111,7 @@ pub fn figure(map: &Map, curves: &[overlay::Curve]) -> Figure {
         label: label(axis).into(),
         factor: factor(axis),
         log: axis.log,
+        whole: axis.is_whole(),
     };
     let places = |chosen: &dyn Fn(Cell) -> bool| -> Vec<(f64, f64)> {
         let found = map.cells.iter().enumerate().filter(|(_, cell)| cell.is_some_and(chosen));

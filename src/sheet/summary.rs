@@ -30,7 +30,7 @@ const ROUND_OFF: f64 = 1e-13;
 pub fn sheet<'a>(
     report: &RunReport,
     wall: Wall,
-    changes: Option<(String, Value)>,
+    changes: (String, Vec<Value>),
     history: &'a History,
     command: CommandLine,
 ) -> Sheet<'a> {
@@ -50,9 +50,10 @@ pub fn sheet<'a>(
         sheet.fact("notes", [note]);
     }
     lines(report, wall).into_iter().for_each(|line| sheet.line(line));
-    if let Some((text, json)) = changes {
-        sheet.line(format!("Changed during the run: {text}."));
-        sheet.fact("changes", json);
+    let (words, changes) = changes;
+    if !changes.is_empty() {
+        sheet.line(format!("Changed during the run: {words}."));
+        sheet.fact("changes", changes);
     }
     sheet.filed(None, history.table());
     sheet.chart("casing [m]", &[["u_c_m", "u_c"], ["u_s_m", "u_s"]]);

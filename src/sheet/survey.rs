@@ -4,11 +4,12 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::line::listed;
+use super::line::{capital, listed};
 use super::margins::words;
 use super::number::{count, per_speed, rounded, short, span, speed, speed_unit, with_unit};
 use super::table::{Column, Heading, Table, TableCell};
 use super::{CommandLine, Sheet};
+use rubscope_solver::model::Mode;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::margins::LimitName;
@@ -103,7 +104,29 @@ pub fn notes(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let guessed =
         "Nodal diameters with ? have no modes of their own: they borrow the common values.";
     let guessed = any(|row| row.guessed, guessed);
-    tuned.chain(scattered).chain(guessed).chain(shaft).chain(growth(survey, shown)).collect()
+    let halves = halves(&survey.scene);
+    tuned
+        .chain(scattered)
+        .chain(guessed)
+        .chain(halves)
+        .chain(shaft)
+        .chain(growth(survey, shown))
+        .collect()
+}
+
+/// Names the nodal diameters with a mode of the casing or of the disk only, where both have lists.
+fn halves(scene: &Scene) -> Vec<String> {
+    let parts = [(&scene.casing.modes, "casing"), (&scene.bladed_disk.modes, "disk")];
+    let of = |modes: &[Mode]| modes.iter().map(|mode| mode.nodal_diameters).collect::<Vec<_>>();
+    let missing = |(own, name): (&Vec<Mode>, &str), (other, missing): (&Vec<Mode>, &str)| {
+        let others = of(other);
+        let mut lone = of(own);
+        lone.retain(|diameters| !others.is_empty() && !others.contains(diameters));
+        let waves = capital(&waves(&lone));
+        let borrowed = format!("that of the {missing} is borrowed");
+        (!lone.is_empty()).then(|| format!("{waves} have a mode of the {name} only; {borrowed}."))
+    };
+    [missing(parts[0], parts[1]), missing(parts[1], parts[0])].into_iter().flatten().collect()
 }
 
 /// Lists the nodal diameters that can lock: somewhere in the range or, without a range, at the scene's
@@ -363,7 +386,7 @@ pub fn figure(survey: &Survey, all: bool) -> Figure {
         outside += beyond.len();
         limits.push(Series::new(name.symbol(), Style::Discs(colour, 4), points));
     }
-    let diameters = || Quantity::new("nodal_diameters", "nodal diameters n_d", 1.0);
+    let diameters = || Quantity::whole("nodal_diameters", "nodal diameters n_d");
     let frequency = Quantity::new("omega_rad_s", "frequency [Hz]", 1.0 / TAU);
     let label = Cow::Owned(format!("rotor speed Ω [{}]", speed_unit()));
     let speeds = Quantity { label, factor: per_speed(1.0), ..Quantity::SPEED };

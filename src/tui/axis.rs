@@ -3,7 +3,7 @@
 
 pub use crate::sheet::number::SiScale;
 use crate::sheet::number::{in_shown_unit, in_tenths, per_frequency, per_speed, trimmed};
-pub use crate::sheet::ticks::{nice_step, ticks};
+pub use crate::sheet::ticks::{nice_step, ticks, whole_ticks};
 
 /// The axis of a chart: its range and the prefix of its labels.
 #[derive(Clone, Copy, Debug)]
@@ -76,13 +76,12 @@ impl ChartAxis {
     /// Returns the round values on the axis, at most `most + 1`, and their spacing; on a
     /// logarithmic axis and one of whole numbers, only whole values.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
-        let unit = if self.kind == Kind::Speeds { self.scale.factor } else { 1.0 };
-        let (mut values, step) = ticks(self.low / unit, self.high / unit, most);
-        values.iter_mut().for_each(|value| *value *= unit);
-        if matches!(self.kind, Kind::Plain | Kind::Speeds) {
-            return (values, step * unit);
+        if !matches!(self.kind, Kind::Plain | Kind::Speeds) {
+            return whole_ticks(self.low, self.high, most);
         }
-        (values.into_iter().filter(|v| (v - v.round()).abs() < 1e-9).collect(), step.max(1.0))
+        let unit = if self.kind == Kind::Speeds { self.scale.factor } else { 1.0 };
+        let (values, step) = ticks(self.low / unit, self.high / unit, most);
+        (values.into_iter().map(|value| value * unit).collect(), step * unit)
     }
 
     /// Returns the label of a tick at `value`; ticks are `step` apart.

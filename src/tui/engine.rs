@@ -14,9 +14,8 @@ use super::views::margins::live::LiveMargins;
 use super::views::spectrum::lines::Spectrum;
 use super::views::steady::coincidence_curves::CoincidenceCurves;
 use super::views::steady::locked_curves::LockedCurves;
-use rubscope_solver::motion::{
-    ActiveSet, Certainty, Checks, Failure, Hold, Motion, Seen, State, Verdict,
-};
+use crate::sheet::sentence::Facts;
+use rubscope_solver::motion::{ActiveSet, Certainty, Hold, Motion, State, Verdict};
 use rubscope_solver::scene::CheckedScene;
 use rubscope_solver::study::MapPlan;
 use rubscope_solver::study::precision::Precision;
@@ -204,23 +203,12 @@ pub struct FullRun {
     /// The longest hold of a corner that ended during the run, and the rotor speed at its end
     /// \[rad/s\]; `None` if no hold of at least a period of the casing ended.
     pub broken: Option<(Hold, f64)>,
-    /// Rotor speed at which the contact at the end began \[rad/s\], and whether the rotor was
-    /// accelerating then; `None` at constant speed.
-    pub caught: Option<(f64, bool)>,
-    /// What was observed over the last part of the run; `None` if the verdict is proved.
-    pub seen: Option<Seen>,
+    /// What the headline says of the run alone.
+    pub facts: Facts,
     /// Verdict of the run.
     pub verdict: Verdict,
     /// Simulated time at which the contact at the end began \[s\].
     pub since: Option<f64>,
-    /// Sides in contact at the end and their multipliers; negative pushes \[N\].
-    pub multipliers: Vec<(u32, f64)>,
-    /// Number of impacts during the run.
-    pub impacts: u64,
-    /// Checks of the solver: penetration, pulls and others.
-    pub checks: Checks,
-    /// Why and when the run stopped early; `None` if it reached its end.
-    pub failure: Option<Failure>,
 }
 
 /// The curves of one page at the page's own zoom, up to the end of the run.

@@ -1,18 +1,14 @@
 //! Changes of a running motion from the command line: which keys act, and the same effect as
 //! the calls on the motion. Refusals are in `tests/transcripts`.
 
-use rubscope::cli::script::{RequestedChange, RequestedScript, parse};
+use rubscope::cli::script::RequestedScript;
 use rubscope_solver::motion::{self};
 use rubscope_solver::scene::{Allowed, KEYS, Key, ModelSize, Scene, Value};
 
-fn parsed(options: &[&str]) -> Result<Vec<(f64, RequestedChange)>, String> {
-    let options: Vec<String> = options.iter().map(ToString::to_string).collect();
-    parse(&options).map_err(|error| error.to_string())
-}
-
 fn script(options: &[&str], scene: &Scene) -> Result<RequestedScript, String> {
-    RequestedScript::resolve(&parsed(options)?, &scene.checked().unwrap())
-        .map_err(|error| error.to_string())
+    let options: Vec<String> = options.iter().map(ToString::to_string).collect();
+    let script = RequestedScript::of(&options, &scene.checked().unwrap());
+    script.map_err(|error| error.to_string())
 }
 
 fn explicit() -> Scene {
@@ -46,8 +42,7 @@ fn a_key_acts_live_just_where_the_motion_takes_it() {
             let text = format!("0.01:{}={value}", key.path);
             match script(&[&text], &scene) {
                 Ok(script) => {
-                    let changes = script.changes();
-                    let (_, last) = changes.changes().last().unwrap();
+                    let (_, last) = script.changes.changes().last().unwrap();
                     let adopted = motion::Change::Parameters(changed.checked().unwrap().into());
                     assert!(takes && *last == adopted, "{text}");
                 }

@@ -16,7 +16,7 @@
 use std::path::PathBuf;
 
 use rayon::prelude::*;
-use rubscope::cli::script::{self, RequestedScript};
+use rubscope::cli::script::RequestedScript;
 use rubscope_solver::motion::{Sampling, run_to_end};
 use rubscope_solver::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use serde::{Deserialize, Serialize};
@@ -98,14 +98,14 @@ fn nudged(scene: &Scene, part: f64) -> Scene {
 
 /// Runs a scene; at the instants of `instants`, or at those that its impacts suggest.
 fn see(scene: &CheckedScene, changes: &[String], instants: Option<&[f64]>) -> Seen {
-    let script = RequestedScript::resolve(&script::parse(changes).unwrap(), scene).unwrap();
+    let script = RequestedScript::of(changes, scene).unwrap();
     let mut states = Vec::new();
     let sampling = Sampling { intervals: SAMPLES, gaps: false };
     let mut keep = |sample: &rubscope_solver::motion::Sample| {
         let state = &sample.state;
         states.push(Instant { t_s: state.t_s, u: state.u, alpha: state.alpha, within: None });
     };
-    let report = run_to_end(scene, &script.changes(), sampling, &mut keep);
+    let report = run_to_end(scene, &script.changes, sampling, &mut keep);
     let end = scene.solver.end_s;
     let times = match instants {
         Some(times) => times.to_vec(),
@@ -140,7 +140,7 @@ fn by_events(scene: &Scene, changes: &[String]) -> Option<CheckedScene> {
         scene.solver.contact = ContactLaw::Unilateral;
     }
     let checked = scene.checked().ok()?;
-    RequestedScript::resolve(&script::parse(changes).unwrap(), &checked).ok()?;
+    RequestedScript::of(changes, &checked).ok()?;
     Some(checked)
 }
 

@@ -158,15 +158,26 @@ fn expanded(path: &str) -> Vec<String> {
     names.iter().flat_map(|name| expanded(&format!("{before}{name}"))).collect()
 }
 
-/// The paths in a folder of `src` that a file there names, as paths of modules.
-fn named_in(folder: &str, own: &str, text: &str) -> Vec<String> {
+/// The code of a file without tests and comments, with one space between words.
+fn code_of(text: &str) -> String {
     let [own_tests, shared] = ["#[cfg(test)]\nmod", "#[cfg(test)]\npub mod"];
     let code = text.split(own_tests).flat_map(|part| part.split(shared)).next().unwrap();
     let lines = code.lines().map(|line| line.split("//").next().unwrap());
-    let code: String = lines.flat_map(str::split_whitespace).flat_map(|word| [word, " "]).collect();
+    lines.flat_map(str::split_whitespace).flat_map(|word| [word, " "]).collect()
+}
+
+/// The paths in a folder of `src` that a file there names, as paths of modules. Names that it only
+/// hands on are no uses.
+fn named_in(folder: &str, own: &str, code: &str) -> Vec<String> {
+    let children = code.split("mod ").skip(1).filter_map(|rest| rest.split_once(';'));
+    let starts: Vec<_> = children.map(|(child, _)| format!("{child}::")).collect();
+    let starts = starts.iter().map(String::as_str).chain(["super::", folder]);
     let mut found = Vec::new();
-    for (at, _) in code.match_indices("super::").chain(code.match_indices(folder)) {
-        if code[..at].ends_with("::") {
+    for (at, _) in starts.flat_map(|start| code.match_indices(start)) {
+        let before = &code[..at];
+        if before.ends_with(|c: char| c.is_alphanumeric() || "_:".contains(c))
+            || before.ends_with("pub use ")
+        {
             continue;
         }
         let is_use = code[..at].ends_with("use ");
@@ -205,18 +216,30 @@ fn assert_no_circle(name: &str, least: usize) {
         .map(|file| {
             let path = file.strip_prefix(&folder).unwrap().to_str().unwrap();
             let own = path.trim_end_matches(".rs").trim_end_matches("mod").trim_end_matches('/');
-            (own.to_string(), fs::read_to_string(file).unwrap())
+            (own.to_string(), code_of(&fs::read_to_string(file).unwrap()))
         })
         .filter(|(own, _)| !own.ends_with("tests"))
         .collect();
+    // Names that a file hands on, and their places.
+    let mut handed: Vec<[String; 2]> = Vec::new();
+    for (own, code) in &files {
+        for used in code.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next()) {
+            for path in expanded(&used.replace(' ', "")) {
+                let place = |path: &str| format!("{own}/{}", path.replace("::", "/"));
+                let both = [path.rsplit("::").next().unwrap(), &path];
+                handed.push(both.map(|path| place(path).trim_start_matches('/').into()));
+            }
+        }
+    }
+    let is_of = |path: &str, part: &str| path == part || path.starts_with(&format!("{part}/"));
     // The file of a path is that of its longest part.
     let file_of = |path: &str| {
-        let parts: Vec<&str> = path.split('/').collect();
-        let longest = (0..=parts.len()).rev().map(|count| parts[..count].join("/"));
-        longest.into_iter().find(|part| files.contains_key(part)).unwrap()
+        let place = handed.iter().find(|[name, _]| is_of(path, name)).map_or(path, |of| &of[1]);
+        let parts = files.keys().filter(|file| file.is_empty() || is_of(place, file));
+        parts.max_by_key(|file| file.len()).unwrap().clone()
     };
-    let uses = |(own, text): (&String, &String)| {
-        let named = named_in(&inside, own, text);
+    let uses = |(own, code): (&String, &String)| {
+        let named = named_in(&inside, own, code);
         let others = named.iter().map(|path| file_of(path)).filter(|other| other != own);
         (own.clone(), others.collect::<BTreeSet<_>>())
     };

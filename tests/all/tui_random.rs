@@ -45,7 +45,7 @@ impl Engine for Late {
                 _ => None,
             };
             let results = [full_run, reference.as_mut(), comparison.as_mut()];
-            results.into_iter().flatten().for_each(|result| result.impacts = *number);
+            results.into_iter().flatten().for_each(|result| result.facts.touches = *number);
             self.kept.push_back(snapshot);
         }
         if self.kept.len() > DELAY { self.kept.pop_front() } else { None }
@@ -60,7 +60,7 @@ fn results(app: &App) -> Vec<u64> {
         _ => None,
     };
     let shown = [full_run, reference.as_ref(), comparison.as_ref()];
-    shown.into_iter().flatten().map(|result| result.impacts).collect()
+    shown.into_iter().flatten().map(|result| result.facts.touches).collect()
 }
 
 fn scene() -> Scene {

@@ -94,7 +94,7 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         let report = json(&words(&format!("{command} --json"))[1..]);
         let outcome = &report["outcome"];
         assert_eq!(outcome["verdict"].as_str().unwrap(), run.verdict.as_ref(), "{command}");
-        assert_eq!(report["impact_count"].as_u64().unwrap(), run.impacts, "{command}");
+        assert_eq!(report["impact_count"].as_u64().unwrap(), run.facts.touches, "{command}");
         let [end, _] = run.end.u;
         let last = report["final"]["u_c_m"].as_f64().unwrap();
         // The same instants, but for the step in which a change comes.

@@ -1,5 +1,6 @@
 //! The built-in scenes: the files under `presets/`, embedded in the binary.
 
+use super::error::visible;
 use super::nearest::nearest;
 use super::{Scene, SceneError};
 
@@ -49,7 +50,7 @@ pub(super) fn unknown(name: &str) -> SceneError {
     let names = || BUILTIN.iter().map(|scene| scene.name);
     let meant = nearest(name, names());
     SceneError::UnknownScene {
-        name: name.to_string(),
+        name: visible(name),
         meant: meant.map_or(String::new(), |meant| format!(" (did you mean {meant}?)")),
         allowed: names().collect::<Vec<_>>().join(", "),
     }

@@ -77,13 +77,19 @@ impl SceneError {
         value: impl ToString,
         allowed: impl Into<String>,
     ) -> Self {
-        Self::Refused { key: key.into(), value: value.to_string(), allowed: allowed.into() }
+        let value = visible(&value.to_string());
+        Self::Refused { key: key.into(), value, allowed: allowed.into() }
     }
 
     /// Adds the path of the file that is refused.
     pub fn in_file(self, path: &str) -> Self {
         Self::InFile { path: path.to_string(), error: Box::new(self) }
     }
+}
+
+/// Returns a text as given, or in quotes if it has no visible letter.
+pub(crate) fn visible(text: &str) -> String {
+    if text.trim().is_empty() { format!("{text:?}") } else { text.to_string() }
 }
 
 /// Rejects the value of a key if `is_wrong`.

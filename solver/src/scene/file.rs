@@ -63,6 +63,10 @@ impl Scene {
     pub fn from_toml_unchecked(text: &str) -> Result<Self, SceneError> {
         let table: Table = text.parse().map_err(|error: toml::de::Error| {
             let message = error.message().lines().collect::<Vec<_>>().join(" ");
+            let message = match message.split_once(" as i128,") {
+                Some((start, _)) => format!("{start}: allowed are up to 18 digits"),
+                None => message,
+            };
             let line = error.span().map_or(1, |span| {
                 1 + text.as_bytes().iter().take(span.start).filter(|&&byte| byte == b'\n').count()
             });
@@ -189,5 +193,9 @@ fn read(scene: &mut Scene, path: &str, toml: &Toml) -> Result<(), SceneError> {
 
 /// Formats a value in one line.
 pub(super) fn one_line(value: &Toml) -> String {
-    value.to_string().lines().collect::<Vec<_>>().join(" ")
+    match value {
+        // With a power of ten instead of many zeros.
+        Toml::Float(x) => format!("{x:?}"),
+        _ => value.to_string().lines().collect::<Vec<_>>().join(" "),
+    }
 }

@@ -8,10 +8,13 @@ pub use super::handle::{Handle, Turn};
 use super::modes::{self, Structure};
 use super::units::{Quantity, UnitError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
+use serde::Serialize;
+
 use crate::model::ModePart;
 
 /// Value of a key.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// Real number.
     Real(f64),

@@ -28,6 +28,7 @@ pub use check::speed_range;
 pub(crate) use check::{SPEED_RANGE, STEP_ROUND_OFF, is_speed_range};
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
+pub(crate) use error::visible;
 pub use file::{read_bytes, read_text};
 pub use keys::{Allowed, KEYS, Key, Value};
 pub use law::ContactLaw;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::scene::units::{RangeError, UnitError, read_ends};
-use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys};
+use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys, visible};
 
 /// Largest number of values on an axis.
 pub const MOST_VALUES: u32 = 100_000;
@@ -24,7 +24,7 @@ pub enum AxisError {
         text: String,
     },
     /// The key has no numeric value.
-    #[error("axis {path}: allowed are keys that hold a number")]
+    #[error("axis {path}: allowed is a key with a number, such as casing.damping_ratio")]
     NotNumeric {
         /// Dotted path.
         path: String,
@@ -130,8 +130,13 @@ impl Axis {
     /// # Errors
     /// The text has another form, or [`new`](Self::new) rejects the axis.
     pub fn parse(text: &str) -> Result<Self, AxisError> {
-        let form = || AxisError::Form { text: text.to_string() };
-        let (path, range) = text.split_once('=').ok_or_else(form)?;
+        let form = || AxisError::Form { text: visible(text) };
+        let Some((path, range)) = text.split_once('=') else {
+            // A key alone lacks its range, unless it can have none.
+            let refused =
+                key_of(text).err().filter(|why| matches!(why, AxisError::NotNumeric { .. }));
+            return Err(refused.unwrap_or_else(form));
+        };
         let (log, range) = match range.trim().strip_prefix("log:") {
             Some(rest) => (true, rest),
             None => (false, range.trim()),

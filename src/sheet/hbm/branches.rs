@@ -9,13 +9,15 @@ use rubscope_solver::harmonic::{
 use rubscope_solver::model::{LockWindow, TipCorner};
 
 pub const BRANCHES: View = View {
-    option: "branches",
-    help: "View: every equilibrium, its stability, and the thresholds of each branch",
     always_damped: false,
-    one_speed: false,
     // Rest and sliding on one side exist even if there is no corner to lock in.
     contact: ViewContact::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
-    fill,
+    unequal_tips: true,
+    ..View::new(
+        "branches",
+        "View: every equilibrium, its stability, and the thresholds of each branch",
+        fill,
+    )
 };
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {

@@ -6,15 +6,18 @@ use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
 
 pub const CAMPBELL: View = View {
-    option: "campbell",
-    help: "View: frequencies against speed, engine orders, and the coincidences (30)",
     always_damped: false,
-    one_speed: false,
     // Frequencies exist without a corner, rigid contact or a harmonic balance.
     contact: ViewContact::Rigid(|error| {
         matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })
     }),
-    fill,
+    unequal_tips: true,
+    out_of_round: true,
+    ..View::new(
+        "campbell",
+        "View: frequencies against speed, engine orders, and the coincidences (30)",
+        fill,
+    )
 };
 
 /// Engine orders drawn in addition to the scene's.

@@ -1,5 +1,5 @@
-//! The view `--coincidence`: growth from rest near the coincidences, and the wave that lasts,
-//! against speed.
+//! The view `--coincidence`: growth rate of rest near the coincidences, and the limit cycle of
+//! blades in contact, against speed.
 
 use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
@@ -9,14 +9,15 @@ use rubscope_solver::harmonic::{
     CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
 };
 
-/// The view: growth and lasting wave against speed.
+/// The view `--coincidence`.
 pub const COINCIDENCE: View = View {
-    option: "coincidence",
-    help: "View: effect of the coincidences: growth rate of rest and the limit cycle, against speed",
-    always_damped: true,
-    one_speed: false,
     contact: ViewContact::OfScene,
-    fill,
+    out_of_round: true,
+    ..View::new(
+        "coincidence",
+        "View: effect of the coincidences: growth rate of rest and the limit cycle, against speed",
+        fill,
+    )
 };
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
@@ -41,7 +42,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     Ok(())
 }
 
-/// Adds the table of the growth from rest and of the lasting wave, and both as charts.
+/// Adds the table of growth rates and limit cycles, and a chart of each.
 pub fn add_points<'a>(
     points: impl AsRef<[CoincidencePoint]> + 'a,
     title: impl Into<String>,
@@ -52,7 +53,7 @@ pub fn add_points<'a>(
     sheet.chart("growth of rest [1/s]", &[["growth_1_s", "growth"]]);
 }
 
-/// Columns of the growth from rest and of the lasting wave, one row per rotor speed.
+/// Columns of the growth rate of rest and of the limit cycle.
 const CURVE: &[Column<'_, CoincidencePoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("growth_1_s", |point| point.growth_1_s.into()),

@@ -13,16 +13,18 @@ use rubscope_solver::model::Frame;
 use rubscope_solver::scene::keys;
 
 pub const COMPLIANCE: View = View {
-    option: "compliance",
-    help: "View: the joint compliance B(omega), in JSON and CSV; a whirl is possible where it \
-           crosses the negative real axis",
-    always_damped: true,
     one_speed: true,
     // The compliance belongs to the structures, with or without a preload.
     contact: ViewContact::Rigid(|error| {
         matches!(error, HarmonicError::Refused { key: keys::CLEARANCE, .. })
     }),
-    fill,
+    out_of_round: true,
+    ..View::new(
+        "compliance",
+        "View: the joint compliance B(omega), in JSON and CSV; a whirl is possible where it \
+         crosses the negative real axis",
+        fill,
+    )
 };
 
 /// Number of frequencies in the table, evenly spaced and odd so that 0 is one of them. Negative ones
@@ -60,21 +62,21 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     Ok(())
 }
 
-/// A whirl (a wave that blades and casing carry round together), and its loads.
+/// A whirl and its loads.
 type Wave = (RoundWhirl, RoundWhirlLoads);
 
 /// Frequency of the wave in the fixed frame and in the frame of the blades \[rad/s\], and the joint
 /// compliance there \[m/N\].
 type Point = (f64, f64, Complex<f64>);
 
-/// Columns of the whirls if there is a clearance.
+/// Columns of the whirls at a clearance.
 const WAVES: &[Column<'_, Wave>] =
     &waves(|wave| if wave.0.attracts { "attracts" } else { "threshold" }.into());
 
 /// Columns of the whirls on a preloaded lining.
 const PRESSED: &[Column<'_, Wave>] = &waves(|_| "see --smooth".into());
 
-/// Returns the columns of the whirls; text has the first ones.
+/// Returns the columns of the whirls. `state` says whether a whirl attracts.
 const fn waves(state: fn(&Wave) -> TableCell) -> [Column<'static, Wave>; 11] {
     [
         ("omega_rad_s", |wave| wave.0.omega_rad_s.into()),

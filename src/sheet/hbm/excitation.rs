@@ -1,20 +1,17 @@
 //! The view `--excitation`: response of the damped lock to the engine order of the scene.
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::short;
 use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
 use rubscope_solver::scene::keys;
 
-pub const EXCITATION: View = View {
-    option: "excitation",
-    help: "View: response of the damped lock to the scene's engine-order excitation",
-    always_damped: true,
-    one_speed: false,
-    contact: ViewContact::Rigid(|_| false),
+pub const EXCITATION: View = View::new(
+    "excitation",
+    "View: response of the damped lock to the scene's engine-order excitation",
     fill,
-};
+);
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let (machine, excitation) = (request.scene.machine(), &request.scene.excitation);
@@ -42,7 +39,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     Ok(())
 }
 
-/// Columns of the response: amplitudes of the oscillation about the lock. Text has the first ones.
+/// Columns of the response: amplitudes of the oscillation about the lock.
 const RESPONSE: &[Column<'_, ExcitedLock>] = &[
     ("speed_rad_s", |lock| lock.state.speed_rad_s.into()),
     ("frequency_rad_s", |lock| lock.frequency_rad_s.into()),

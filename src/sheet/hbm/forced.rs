@@ -9,12 +9,13 @@ use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
 use rubscope_solver::scene::{ContactLaw, keys};
 
 pub const FORCED: View = View {
-    option: "forced",
-    help: "View: the wave that an out-of-round casing drives if all blades rub its lining",
-    always_damped: true,
-    one_speed: false,
     contact: ViewContact::OfScene,
-    fill,
+    out_of_round: true,
+    ..View::new(
+        "forced",
+        "View: the wave that an out-of-round casing drives if all blades rub its lining",
+        fill,
+    )
 };
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {

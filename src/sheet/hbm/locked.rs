@@ -1,20 +1,14 @@
-//! The locked motion, which is shown without the option of a view.
+//! The default view: the locked motion against speed.
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{Form, HarmonicError, LockedPoint, Sweep};
 
-/// The default view: the locked motion.
-pub const LOCKED: View = View {
-    option: "",
-    help: "",
-    always_damped: false,
-    one_speed: false,
-    contact: ViewContact::Rigid(|_| false),
-    fill,
-};
+/// The view without an option.
+pub const LOCKED: View =
+    View { always_damped: false, unequal_tips: true, ..View::new("", "", fill) };
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let mut sweep = request.lock()?.sweep(request.speeds)?;
@@ -40,7 +34,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
     Ok(())
 }
 
-/// Adds the table of the locked motion, and its multipliers, angles and amplitudes as charts.
+/// Adds the table of the locked motion, and charts of its multipliers, angles and amplitudes.
 pub fn add_points<'a>(points: impl AsRef<[LockedPoint]> + 'a, sheet: &mut Sheet<'a>) {
     sheet.table("points", "", Table::of(points, POINTS).shown(7));
     sheet.chart("multiplier [N]", &[["multiplier_a_n", "λ_a"], ["multiplier_b_n", "λ_b"]]);
@@ -66,7 +60,6 @@ fn held(sweep: &Sweep, blades: &[Vec<u32>; 2]) -> String {
     )
 }
 
-/// Columns of the locked motion; text has the first ones.
 const POINTS: &[Column<'_, LockedPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("multiplier_a_n", |point| point.multipliers_n[0].into()),

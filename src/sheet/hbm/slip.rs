@@ -1,6 +1,6 @@
-//! The view `--slip`: lasting slip, and the speeds at which it exists.
+//! The view `--slip`: steady slip, and the speeds at which it exists.
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table, TableCell};
@@ -8,14 +8,8 @@ use rubscope_solver::harmonic::{
     HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
 };
 
-pub const SLIP: View = View {
-    option: "slip",
-    help: "View: lasting slip, a fixed point of the map from corner to corner",
-    always_damped: true,
-    one_speed: false,
-    contact: ViewContact::Rigid(|_| false),
-    fill,
-};
+pub const SLIP: View =
+    View::new("slip", "View: lasting slip, a fixed point of the map from corner to corner", fill);
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let Request { machine, speeds, .. } = request;
@@ -48,7 +42,7 @@ fn heading(points: &[SlipPoint], limits: &[SlipLimit]) -> String {
     }
 }
 
-/// Columns of slip; all but the first two are empty if there is none. Text has the first ones.
+/// Columns of slip. Where none exists, all but the first two are empty.
 const SLIPS: &[Column<'_, SlipPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("slip", |point| match point.outcome {

@@ -1,5 +1,6 @@
-//! The view `--smooth`: steady states of blades on a lining. With a preload, these are rest and the
-//! waves that grow from it; with a clearance, locks, whirl, and the linings that hold a lock.
+//! The view `--smooth`: steady states of blades on a lining. With a preload these are rest and its
+//! limit cycles; with a clearance they are locks and whirl, with the least stiffness that holds a
+//! lock.
 
 use super::view::{Request, View, ViewContact, speeds_of};
 use crate::sheet::Sheet;
@@ -12,17 +13,17 @@ use rubscope_solver::harmonic::{
 use rubscope_solver::scene::{ContactLaw, keys};
 
 pub const SMOOTH: View = View {
-    option: "smooth",
-    help: "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, \
-           limit cycles, locks, and the linings that can hold a lock",
-    always_damped: true,
-    one_speed: false,
     contact: ViewContact::OfScene,
-    fill,
+    ..View::new(
+        "smooth",
+        "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, limit \
+         cycles, locks, and the linings that can hold a lock",
+        fill,
+    )
 };
 
-/// Rest at one rotor speed, whether large waves stay bounded there, and the stable wave of constant
-/// amplitude, if there is one.
+/// Rest at one rotor speed, whether large waves stay bounded there, and the stable limit cycle, if
+/// there is one.
 type RestRow = (Rest, bool, Option<Cycle>);
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
@@ -106,7 +107,7 @@ fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) 
     }
 }
 
-/// Columns of the speeds at which a wave about rest begins or ceases to grow.
+/// Columns of the Hopf points: the speeds at which a wave about rest begins or ceases to grow.
 const HOPF: &[Column<'_, HopfPoint>] = &[
     ("speed_rad_s", |point| point.speed_rad_s.into()),
     ("s_rad_s", |point| point.s_rad_s.into()),
@@ -114,7 +115,7 @@ const HOPF: &[Column<'_, HopfPoint>] = &[
     ("grows_above", |point| point.grows_above.into()),
 ];
 
-/// Columns of rest under preload and the wave that grows from it.
+/// Columns of rest under a preload, with its stable limit cycle.
 const RESTS: &[Column<'_, RestRow>] = &[
     ("speed_rad_s", |row| row.0.speed_rad_s.into()),
     ("growth_1_s", |row| row.0.worst().growth_1_s.into()),
@@ -136,7 +137,7 @@ const RESTS: &[Column<'_, RestRow>] = &[
     }),
 ];
 
-/// Columns of waves of constant amplitude.
+/// Columns of the limit cycles.
 const CYCLES: &[Column<'_, Cycle>] = &[
     ("speed_rad_s", |cycle| cycle.speed_rad_s.into()),
     ("omega_rad_s", |cycle| cycle.omega_rad_s.into()),
@@ -148,7 +149,7 @@ const CYCLES: &[Column<'_, Cycle>] = &[
     ("character", |cycle| word(cycle.stable)),
 ];
 
-/// Columns of waves that are fixed in the frame of the blades; text has the first ones.
+/// Columns of the waves that are at rest in the frame of the blades.
 const STATES: &[Column<'_, LiningState>] = &[
     ("speed_rad_s", |state| state.speed_rad_s.into()),
     ("pushing", |state| (state.pushing as u64).into()),

@@ -1,4 +1,4 @@
-//! A view of the steady states, and what all views begin with: the machine, its limits, and the
+//! A view of the steady states, and the part that all views have: the machine, its limits, and the
 //! assumptions behind the numbers.
 
 use crate::sheet::line::capital;
@@ -21,9 +21,33 @@ pub struct View {
     pub one_speed: bool,
     /// Contact of the view.
     pub contact: ViewContact,
+    /// Whether the view is derived for blades of unequal length.
+    pub unequal_tips: bool,
+    /// Whether the view is derived for a casing out of round.
+    pub out_of_round: bool,
     /// Adds the facts, sentences and tables of the view to the sheet. The table for files comes
     /// last; in JSON it is `points`.
-    pub fill: fn(&Request<'_>, &mut Sheet<'_>) -> Result<(), HarmonicError>,
+    pub fill: Fill,
+}
+
+/// Function that adds a view to a sheet.
+type Fill = fn(&Request<'_>, &mut Sheet<'_>) -> Result<(), HarmonicError>;
+
+impl View {
+    /// Creates a view of the damped motion in rigid contact at several speeds, derived for equal
+    /// tips in a round casing. Without a corner that can lock it is refused.
+    pub(super) const fn new(option: &'static str, help: &'static str, fill: Fill) -> Self {
+        Self {
+            option,
+            help,
+            always_damped: true,
+            one_speed: false,
+            contact: ViewContact::Rigid(|_| false),
+            unequal_tips: false,
+            out_of_round: false,
+            fill,
+        }
+    }
 }
 
 /// Contact law of a view.
@@ -65,7 +89,7 @@ impl<'a> Request<'a> {
         view: &View,
         command: CommandLine,
     ) -> Result<Sheet<'static>, HarmonicError> {
-        self.knows_tips(view)?;
+        self.refuse_uneven(view)?;
         if let ViewContact::Rigid(tolerates) = view.contact {
             let machine = self.scene.machine().with_lining(None);
             // The rigid model ignores the bending of the blades under load.
@@ -114,17 +138,13 @@ impl<'a> Request<'a> {
     }
 
     /// Refuses unequal tips and an out-of-round casing if the view is not derived for them.
-    fn knows_tips(&self, view: &View) -> Result<(), HarmonicError> {
-        let tips = ["", "branches", "campbell"].contains(&view.option);
-        let tips = tips || !self.machine.has_unequal_tips();
-        let round = ["forced", "coincidence", "campbell", "compliance"].contains(&view.option);
-        let is_refused = |(key, length): &(&str, f64)| match *key {
-            keys::OUT_OF_ROUND => !round && *length != 0.0,
-            _ => !tips && *length != 0.0,
-        };
-        let Some((key, length)) = self.scene.unevenness().into_iter().find(is_refused) else {
-            return Ok(());
-        };
+    fn refuse_uneven(&self, view: &View) -> Result<(), HarmonicError> {
+        // Tips that are all longer by the same length are equal.
+        let tips = view.unequal_tips || !self.machine.has_unequal_tips();
+        let is_known = |key| if key == keys::OUT_OF_ROUND { view.out_of_round } else { tips };
+        let mut uneven = self.scene.unevenness().into_iter();
+        let refused = uneven.find(|(key, length)| *length != 0.0 && !is_known(*key));
+        let Some((key, length)) = refused else { return Ok(()) };
         let option =
             if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
         let allowed = format!("none with {option}, which is not derived for it");
@@ -170,8 +190,8 @@ impl<'a> Request<'a> {
         notes.iter().for_each(|note| sheet.line(format!("These numbers are {note}.")));
     }
 
-    /// Names the critical speed, the lock and the dangerous coincidence; `None` without a critical
-    /// speed.
+    /// States the critical speed, the speeds of the lock and the dangerous coincidence; `None`
+    /// without a critical speed.
     fn limits(&self, damped: bool) -> Option<String> {
         let (machine, toward) = (&self.machine, self.fastest());
         let critical = machine.critical_speed()?;

@@ -1,7 +1,7 @@
 //! The view `--whirl`: whirl of inclined tips in the limit of many blades, its onset, and the speed
 //! at which a lock begins to flutter.
 
-use super::view::{Request, View, ViewContact, speeds_of};
+use super::view::{Request, View, speeds_of};
 use crate::sheet::Sheet;
 use crate::sheet::line::listed;
 use crate::sheet::table::{Column, Table, TableCell};
@@ -10,15 +10,12 @@ use rubscope_solver::harmonic::{
 };
 use rubscope_solver::model::{LockWindow, Machine};
 
-pub const WHIRL: View = View {
-    option: "whirl",
-    help: "View: whirl of inclined tips (limit of many blades), its onset, and the speeds at \
-           which a lock flutters",
-    always_damped: true,
-    one_speed: false,
-    contact: ViewContact::Rigid(|_| false),
+pub const WHIRL: View = View::new(
+    "whirl",
+    "View: whirl of inclined tips (limit of many blades), its onset, and the speeds at which a \
+     lock flutters",
     fill,
-};
+);
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
     let (machine, toward) = (&request.machine, request.fastest());
@@ -64,8 +61,8 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
 const FEW_SIDES: &str = " With few sides or little damping a rub may whirl or grow at speeds where \
     this limit of many blades has none; a run shows it.";
 
-/// A rotor speed \[rad/s\], what a large rub becomes there, and the whirl that attracts with its
-/// loads, if one does.
+/// What a large rub becomes at a rotor speed \[rad/s\], and the whirl that attracts, with its loads;
+/// `None` if none does.
 #[derive(Clone, Copy, Debug)]
 struct WhirlRow {
     speed_rad_s: f64,
@@ -81,7 +78,7 @@ impl WhirlRow {
     }
 }
 
-/// Columns of whirl; all but the first two are empty if there is none. Text has the first ones.
+/// Columns of whirl. Where none attracts, all but the first two are empty.
 const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("speed_rad_s", |row| row.speed_rad_s.into()),
     ("state", |row| <&str>::from(row.state).into()),

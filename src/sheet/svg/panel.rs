@@ -3,7 +3,7 @@
 
 use super::paper::{LEFT, LINE, Place, circle, colour, line, rectangle, strokes, text, width_of};
 use crate::sheet::number::short;
-use crate::sheet::ticks::{log_ticks, power_of_ten, scientific, ticks};
+use crate::sheet::ticks::{log_ticks, power_of_ten, scientific, ticks, whole_ticks};
 use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
 
 /// Height of a panel's title \[px\].
@@ -21,6 +21,8 @@ const MOST_TICKS: usize = 8;
 const TICKS_APART: f64 = 8.0;
 /// Half the width of a bar of [`Style::Bars`], in units of x.
 const HALF: f64 = 0.3;
+/// Radius of a curve of one point \[px\].
+const POINT: f64 = 2.0;
 /// Style of the lines of marks.
 const MARK: Style = Style::Dotted(5);
 
@@ -118,6 +120,9 @@ fn drawn(style: Style, at: &[Place], half: Place, on_cells: bool) -> String {
     let each =
         |symbol: &dyn Fn(Place) -> String| at.iter().copied().map(symbol).collect::<String>();
     let stroke = |dashes: &str| {
+        if let [only] = at {
+            return circle(*only, POINT, &ink, "none");
+        }
         let rim = if on_cells { line(at, "white", 4.0, "") } else { String::new() };
         rim + &line(at, &ink, 1.5, dashes)
     };
@@ -206,7 +211,7 @@ impl<'a> Scale<'a> {
         let mut widen = margin * (scale.high - scale.low);
         if scale.low == scale.high {
             // A constant needs some range for an axis to exist.
-            widen = 1e-9 * scale.low.abs().max(1e-3);
+            widen = if scale.low == 0.0 { 1.0 } else { 1e-9 * scale.low.abs() };
         }
         scale.low -= widen;
         scale.high += widen;
@@ -228,9 +233,10 @@ impl<'a> Scale<'a> {
     /// Returns the places of the ticks with their labels: as many as stand apart and differ, or the
     /// middle, where a constant is.
     fn ticks(&self) -> Vec<(f64, String)> {
-        let ticks = |most| match self.quantity.log {
-            true => log_ticks(self.low, self.high, most),
-            false => ticks(self.low, self.high, most).0,
+        let ticks = |most| match self.quantity {
+            Quantity { log: true, .. } => log_ticks(self.low, self.high, most),
+            Quantity { whole: true, .. } => whole_ticks(self.low, self.high, most).0,
+            _ => ticks(self.low, self.high, most).0,
         };
         let label = |tick: f64| (self.place(tick), self.label(tick));
         let labels = |most| ticks(most).into_iter().map(label).collect::<Vec<_>>();

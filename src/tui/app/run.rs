@@ -362,8 +362,8 @@ fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
 mod tests {
     use super::*;
     use crate::tui::engine::FullRunState;
+    use crate::tui::views::spectrum::lines::Spectrum;
     use rubscope_solver::scene::Scene;
-    use std::sync::Arc;
 
     #[test]
     fn a_run_without_a_verdict_is_not_pinned() {
@@ -384,7 +384,7 @@ mod tests {
     fn what_was_computed_of_a_motion_is_forgotten_with_it_and_its_studies_stay() {
         let scene = Scene::base().checked().unwrap();
         let mut run = Run::of(&scene, &scene.machine());
-        run.latest.results.found.spectrum = Some(Arc::default());
+        run.latest.results.found.spectrum = Some(Spectrum::of(&scene, &[]).into());
         for begins in [false, true] {
             run.latest.results.sensitive = Sensitive::GivenUp;
             if begins {

@@ -98,19 +98,10 @@ impl App {
 
     /// Collects the facts for the sentence about a complete run.
     fn facts(&self, run: &FullRun) -> Facts {
-        let contacts = run.multipliers.iter();
-        let contacts = contacts.map(|(side, force)| (self.machine.first_of_side(*side), *force));
         Facts {
-            touches: run.impacts,
-            broken: run.broken.map(|(_, speed)| speed),
-            caught: run.caught,
-            failure: run.failure.clone(),
-            pulled: run.checks.tensile_steps > 0,
-            seen: run.seen,
-            still: run.end.amplitude() == 0.0,
             other: self.results().reference.as_ref().map(|other| other.verdict),
             certainty: self.results().sensitive.known(),
-            ..Facts::at(run.verdict, (&self.scene, &self.machine, self.speed()), contacts)
+            ..run.facts.clone()
         }
     }
 

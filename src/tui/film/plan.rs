@@ -29,7 +29,7 @@ impl FilmPlan {
     }
 
     /// Returns the scene with the changes up to `t` \[s\].
-    fn scene_at(&self, t: f64) -> &CheckedScene {
+    pub fn scene_at(&self, t: f64) -> &CheckedScene {
         let scenes = self.script.changes().iter().take_while(|(at, _)| *at <= t);
         let scenes = scenes.filter_map(|(_, change)| match change {
             Change::Parameters(scene) => Some(&**scene),

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use super::copies::Copies;
 use super::page::Page;
 use super::plan::FilmPlan;
+use crate::sheet::sentence::Facts;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, SLICE};
 use crate::tui::trace::{Mark, Marks};
 use rubscope_solver::motion::{
@@ -214,18 +215,29 @@ impl Film {
         let log = motion.contacts();
         let checks = motion.checks();
         let (verdict, failure) = judge_end(motion, &checks, self.window());
+        let broken = lock_that_broke(motion);
+        let scene = self.plan.scene_at(self.plan.end_s);
+        let machine = scene.machine();
+        let contacts = motion.multipliers().into_iter();
+        let contacts = contacts.map(|(side, force)| (machine.first_of_side(side), force));
+        let end = (&**scene, &machine, motion.rotor().speed(motion.t_s()));
+        let facts = Facts {
+            touches: log.impact_count,
+            broken: broken.map(|(_, speed)| speed),
+            caught: caught_at(motion),
+            pulled: checks.tensile_steps > 0,
+            seen: Seen::at_end(motion, verdict, self.window()),
+            still: motion.state().amplitude() == 0.0,
+            failure,
+            ..Facts::at(verdict, end, contacts)
+        };
         FullRun {
             end: motion.state(),
             marks: Arc::new(self.marks.seen.clone()),
-            broken: lock_that_broke(motion),
-            caught: caught_at(motion),
-            seen: Seen::at_end(motion, verdict, self.window()),
+            broken,
+            facts,
             verdict,
             since: verdict.keeps_contact().then_some(log.since),
-            multipliers: motion.multipliers(),
-            impacts: log.impact_count,
-            checks,
-            failure,
         }
     }
 
@@ -374,7 +386,7 @@ mod tests {
                 let [own, other] = [&film, &whole].map(|film| film.result.as_ref().unwrap());
                 assert_eq!(own.verdict, other.verdict, "{name}");
                 assert_eq!(own.end, other.end, "{name}");
-                assert_eq!(own.impacts, other.impacts, "{name}");
+                assert_eq!(own.facts.touches, other.facts.touches, "{name}");
             }
             assert_eq!(now.script.changes().iter().filter(|(t, _)| *t < 2.5e-3).count(), 0);
         }

@@ -57,6 +57,11 @@ pub fn order(case: &Case) -> KnobRange {
     KnobRange::linear(1.0, case.blades().max(2.0))
 }
 
+/// Few casings have more than eight lobes.
+pub fn lobes(case: &Case) -> KnobRange {
+    KnobRange::linear(0.0, (2.0 * case.usual()).max(8.0))
+}
+
 pub fn blade_length(case: &Case) -> KnobRange {
     let (radius, room) = (case.scene.casing.radius_m, 4.0 * case.clearance());
     let most = if case.has_lining() { radius + PRESSED * room } else { radius };

@@ -75,7 +75,7 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
         knob(Tips, keys::TIP_SEED).unless(inert::equal_tips),
         knob(Tips, keys::ORBIT).usual(1e-5),
         knob(Tips, keys::ORBIT_ANGLE).bar(From(-3.2, 3.2)).unless(inert::centred),
-        knob(Tips, keys::LOBES).unless(inert::round),
+        knob(Tips, keys::LOBES).bar(Of(bars::lobes)).unless(inert::round),
         knob(Tips, keys::OUT_OF_ROUND).usual(1e-6).unless(inert::without_lobes),
         knob(Tips, keys::OUT_OF_ROUND_ANGLE).bar(From(-3.2, 3.2)).unless(inert::round),
         knob(Start, keys::INITIAL_U_C).bar(Of(bars::position)),

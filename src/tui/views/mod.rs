@@ -17,10 +17,8 @@ mod table;
 pub use panel::{ViewArea, ViewPanel};
 
 use super::app::App;
-use super::app::reading::cell_of;
 use super::command::Command;
 pub use id::ViewId;
-use margins::COLUMNS;
 use rubscope_solver::scene::keys::CHARTS;
 
 /// The views in the order of their digits.
@@ -53,15 +51,5 @@ impl App {
     /// has nothing to open there.
     pub fn opening(&self) -> Option<Command> {
         self.panel().opening(self, self.reading.cursor?)
-    }
-
-    /// Returns column and row of the margins under the cursor; row 0 is at the top. `None` without
-    /// a cursor in the margins, and until there are margins.
-    pub fn margins_cell(&self) -> Option<[usize; 2]> {
-        let cursor = self.cursor_in(ViewId::Margins)?;
-        let rows =
-            u32::try_from(self.margins()?.0.margins.limits.len()).ok().filter(|rows| *rows > 0)?;
-        let row = rows - 1 - cell_of(cursor.up, rows);
-        Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
     }
 }

@@ -45,6 +45,8 @@ pub struct Quantity {
     pub factor: f64,
     /// Whether the axis is logarithmic.
     pub log: bool,
+    /// Whether the values are whole numbers.
+    pub whole: bool,
 }
 
 /// A curve or a set of points.
@@ -113,14 +115,23 @@ impl Quantity {
     #[must_use]
     pub const fn new(column: &'static str, label: &'static str, factor: f64) -> Self {
         let (column, label) = (Cow::Borrowed(column), Cow::Borrowed(label));
-        Self { column, label, factor, log: false }
+        Self { column, label, factor, log: false, whole: false }
     }
 
     /// Creates a quantity for a logarithmic axis, displayed in SI units.
     #[must_use]
     pub const fn log(column: &'static str, label: &'static str) -> Self {
-        let (column, label) = (Cow::Borrowed(column), Cow::Borrowed(label));
-        Self { column, label, factor: 1.0, log: true }
+        let mut quantity = Self::new(column, label, 1.0);
+        quantity.log = true;
+        quantity
+    }
+
+    /// Creates a quantity of whole numbers.
+    #[must_use]
+    pub const fn whole(column: &'static str, label: &'static str) -> Self {
+        let mut quantity = Self::new(column, label, 1.0);
+        quantity.whole = true;
+        quantity
     }
 }
 

@@ -91,7 +91,7 @@ impl ViewPanel for GapsView {
         sheet.picture(move || {
             let gaps = (1..).map(f64::from).zip(now.gaps.iter().copied());
             let (x, y) =
-                (Quantity::new("blade", "blade", 1.0), Quantity::new("gap_m", "gap [m]", 1.0));
+                (Quantity::whole("blade", "blade"), Quantity::new("gap_m", "gap [m]", 1.0));
             let panel = Panel::new("", x, y, vec![Series::new("gap", Style::Discs(0, 4), gaps)]);
             let note = format!("at {}", instant(now.state.t_s));
             Figure::new(app.scene.title.clone(), note, vec![panel])

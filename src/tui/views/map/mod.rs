@@ -3,7 +3,7 @@
 //! are chosen here.
 
 mod picture;
-pub use picture::{colour, sign};
+pub use picture::{colour, text_style};
 pub mod plan;
 mod words;
 

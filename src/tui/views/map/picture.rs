@@ -1,5 +1,5 @@
-//! The picture of a map: coloured half blocks, two rows of cells per line, or letters where there
-//! is no colour; and what is drawn over it.
+//! The picture of a map: two rows of cells per line, as letters on colours and coloured half blocks,
+//! or one row of letters where there is no colour; and what is drawn over it.
 
 use ratatui::style::{Color, Style};
 use ratatui::{buffer::Buffer, layout::Rect};
@@ -18,12 +18,12 @@ use rubscope_solver::scene::keys::SPEED;
 use rubscope_solver::study::overlay::Curve;
 use rubscope_solver::study::{Axis, Cell};
 
-/// Returns whether cells are letters instead of colours.
+/// Returns whether cells are letters without colours.
 pub fn letters(look: &Appearance) -> bool {
     look.ascii() || look.theme == Theme::Mono
 }
 
-/// Returns the colour of a verdict; `None` for decay, which is drawn as a shade.
+/// Returns the colour of a verdict; `None` for decay.
 pub fn colour(look: &Appearance, verdict: Verdict) -> Option<Color> {
     let [dark, light, safe, safe_light] = match verdict {
         Verdict::Decay => return None,
@@ -212,39 +212,34 @@ fn style(look: &Appearance, cell: Option<Cell>) -> Style {
     }
 }
 
-/// Draws two cells, one above the other, as one character with two colours.
+/// Draws two cells, one above the other, as one character: their letter on their colour or, if they
+/// differ, a half block of two colours.
 fn block(look: &Appearance, [above, below]: [Option<Cell>; 2]) -> (char, Style) {
     let of = |cell: Option<Cell>| cell.and_then(|cell| colour(look, cell.verdict));
     let plain = Style::new();
-    let pulls = |cell: &Option<Cell>| cell.is_some_and(|cell| cell.verdict == Verdict::Adhesive);
-    if let Some(pulling) = [above, below].into_iter().find(pulls) {
-        // An adhesive lock has a pattern of its own, not only a colour.
-        let other = [above, below].into_iter().find(|cell| !pulls(cell)).and_then(of);
-        let style = of(pulling).map_or(plain, |colour| plain.fg(colour));
-        return (PULLS, other.map_or(style, |colour| style.bg(colour)));
-    }
     match (of(above), of(below)) {
-        (Some(above), Some(below)) if above == below => (' ', plain.bg(above)),
-        (Some(above), Some(below)) => ('▀', plain.fg(above).bg(below)),
+        (Some(above), Some(below)) if above != below => ('▀', plain.fg(above).bg(below)),
         (Some(above), None) => ('▀', plain.fg(above)),
         (None, Some(below)) => ('▄', plain.fg(below)),
-        (None, None) if above.or(below).is_some() => ('░', look.style(Role::Quiet)),
-        (None, None) => (look.either('·', ' '), look.style(Role::Quiet)),
+        _ => above.or(below).map_or(('·', look.style(Role::Quiet)), |cell| lettered(look, cell)),
     }
 }
 
-/// Character of an adhesive lock.
-const PULLS: char = '▒';
+/// Draws a cell as its letter, on the colour of its verdict if it has one.
+fn lettered(look: &Appearance, cell: Cell) -> (char, Style) {
+    let colour = colour(look, cell.verdict).filter(|_| !letters(look));
+    let on = |colour| Style::new().fg(ink(look, colour)).bg(colour);
+    (mark(Some(cell)), colour.map_or_else(|| style(look, Some(cell)), on))
+}
 
 /// Returns the sign of a verdict for the legend.
 pub fn sign(look: &Appearance, verdict: Verdict) -> (char, Style) {
-    let cell = Some(Cell::of(verdict));
-    match (letters(look), colour(look, verdict)) {
-        (true, _) => (mark(cell), style(look, cell)),
-        (false, None) => ('░', look.style(Role::Quiet)),
-        (false, Some(colour)) if verdict == Verdict::Adhesive => (PULLS, Style::new().fg(colour)),
-        (false, Some(colour)) => ('█', Style::new().fg(colour)),
-    }
+    lettered(look, Cell::of(verdict))
+}
+
+/// Returns the style of text in the colour of a verdict.
+pub fn text_style(look: &Appearance, verdict: Verdict) -> Style {
+    style(look, Some(Cell::of(verdict)))
 }
 
 /// Returns the unit of a key; empty if it has none, or no knob.

@@ -168,7 +168,7 @@ pub fn column(app: &App, live: &LiveMap, width: usize) -> Vec<Line> {
         let mut meaning =
             wrap(&format!("{verdict}: {}", means(verdict)), width.saturating_sub(2)).into_iter();
         let first = meaning.next().unwrap_or_default();
-        lines.push(vec![(format!("{sign} "), style), (first, text)]);
+        lines.push(vec![(sign.to_string(), style), (format!(" {first}"), text)]);
         lines.extend(meaning.map(|rest| vec![(format!("  {rest}"), text)]));
     }
     lines.push(Vec::new());

@@ -12,6 +12,7 @@ use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
 use crate::sheet::number::{rounded, speed_unit};
 use crate::sheet::survey::sheet;
 use crate::sheet::{Sheet, margins};
+use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::number;
 use crate::tui::command::Command;
@@ -131,6 +132,16 @@ impl App {
         let range = live.survey.as_ref().map(|survey| survey.range_rad_s);
         let other = range.is_some_and(|range| range != self.layout.range);
         Some((live, other || live.margins.scene != self.scene))
+    }
+
+    /// Returns column and row of the margins under the cursor; row 0 is at the top. `None` without
+    /// a cursor in the margins, and until there are margins.
+    pub fn margins_cell(&self) -> Option<[usize; 2]> {
+        let cursor = self.cursor_in(ViewId::Margins)?;
+        let rows =
+            u32::try_from(self.margins()?.0.margins.limits.len()).ok().filter(|rows| *rows > 0)?;
+        let row = rows - 1 - cell_of(cursor.up, rows);
+        Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
     }
 
     /// Switches between the survey over all nodal diameters and the margins of one; from another

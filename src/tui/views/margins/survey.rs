@@ -11,7 +11,7 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::text::wrap;
 use crate::tui::theme::Role;
-use crate::tui::views::map::sign;
+use crate::tui::views::map::text_style;
 use crate::tui::views::panel::{ViewArea, lines_above, not_yet, title};
 use crate::tui::views::table::{Rows, spelled};
 use rubscope_solver::motion::Verdict;
@@ -29,7 +29,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea, cell: Option<usize>) {
     let quiet = look.style(Role::Quiet);
     let found = app.margins().and_then(|(live, old)| Some((live.survey.as_deref()?, old)));
     let mut legend = vec![(format!("speeds in {}, modes in Hz", speed_unit()), quiet)];
-    legend.push(("can lock now".to_string(), sign(look, Verdict::Locked).1));
+    legend.push(("can lock now".to_string(), text_style(look, Verdict::Locked)));
     let is_borrowed =
         |(survey, _): (&Survey, bool)| survey.shown(false).iter().any(|row| row.guessed);
     if found.is_some_and(is_borrowed) {
@@ -77,7 +77,7 @@ fn table(
     let used = drawn.draw(app, buffer, (at, below), |place, column| match rows.get(place) {
         Some(_) if column == 0 && place == home => look.style(Role::Focus),
         Some(row) if row.guessed => look.style(Role::Quiet),
-        Some(row) if column == 1 && row.locks_at(now) => sign(look, Verdict::Locked).1,
+        Some(row) if column == 1 && row.locks_at(now) => text_style(look, Verdict::Locked),
         _ => look.style(Role::Text),
     });
     // Notes follow the table if they fit below an empty row.

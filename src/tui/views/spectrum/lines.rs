@@ -4,8 +4,15 @@ use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
+use crate::tui::axis::round_out;
+use rubscope_solver::scene::Scene;
+use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
+
+/// Ends of the amplitude axis, as powers of ten of a metre.
+pub const DECADES: (f64, f64) = (-10.0, -3.0);
+
 /// Amplitudes at equally spaced angular frequencies, from 0.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// Spacing of the lines \[rad/s\].
     pub resolution: f64,
@@ -13,19 +20,44 @@ pub struct Spectrum {
     pub cosine: Vec<f64>,
     /// Amplitude of `u_s` in each line \[m\].
     pub sine: Vec<f64>,
+    /// End of the frequency axis \[rad/s\].
+    pub highest: f64,
+    /// The lines on the axis; its labels have SI units.
+    pub panel: Panel,
 }
 
 impl Spectrum {
-    /// Computes the spectrum of samples of `u_c` and `u_s` \[m\] at equal intervals over `length`
-    /// seconds. Empty for fewer than 8 samples.
-    pub fn of(signal: &[[f64; 2]], length: f64) -> Self {
+    /// Computes the spectrum of samples of `u_c` and `u_s` \[m\] at equal intervals over the run of
+    /// a scene. Empty for fewer than 8 samples.
+    pub fn of(scene: &Scene, signal: &[[f64; 2]]) -> Self {
         let of = |place: usize| {
             let samples: Vec<f64> =
                 signal.iter().map(|pair| pair.get(place).copied().unwrap_or(0.0)).collect();
             amplitudes_of(samples)
         };
-        Self { resolution: TAU / length, cosine: of(0), sine: of(1) }
+        let (resolution, highest) = (TAU / scene.solver.end_s, highest(scene));
+        let (cosine, sine) = (of(0), of(1));
+        let least = 10_f64.powf(DECADES.0);
+        let series = |number, label, amplitudes: &[f64]| {
+            let points = amplitudes.iter().enumerate();
+            let points = points.map(|(k, size)| (k as f64 * resolution, size.max(least)));
+            Series::new(label, Style::Line(number), points.take_while(|(w, _)| *w <= highest))
+        };
+        let series = vec![series(0, "u_c", &cosine), series(1, "u_s", &sine)];
+        let x = Quantity::new("frequency_rad_s", "frequency [rad/s]", 1.0);
+        let panel = Panel::new("", x, Quantity::log("u_m", "amplitude [m]"), series);
+        Self { resolution, cosine, sine, highest, panel }
     }
+}
+
+/// Returns the end of the frequency axis \[rad/s\]: above the frequencies of casing and blades in
+/// the fixed frame at every speed of the run.
+fn highest(scene: &Scene) -> f64 {
+    let (machine, operation) = (scene.machine(), &scene.operation);
+    let end = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
+    let fastest = operation.speed_rad_s.abs().max(end.abs());
+    let most = (machine.nu(fastest) + machine.omega_bd).max(machine.omega_c);
+    round_out(0.0, 1.3 * most, 5).1
 }
 
 /// Returns the amplitude of each line, scaled such that a sine at the frequency of a line gives its
@@ -62,7 +94,7 @@ mod tests {
                 [3e-4 * cos, 1e-4 * sin]
             })
             .collect();
-        let spectrum = Spectrum::of(&signal, 0.1);
+        let spectrum = Spectrum::of(&Scene::base(), &signal);
         let line = (TAU * 240.0 / spectrum.resolution).round() as usize;
         assert_eq!(line, 24);
         // With a Hann window, a sine at a line keeps its amplitude exactly.
@@ -73,7 +105,7 @@ mod tests {
 
     #[test]
     fn signals_that_are_no_numbers_have_no_spectrum() {
-        assert!(Spectrum::of(&[[f64::NAN, 0.0]; 64], 1.0).cosine.is_empty());
-        assert!(Spectrum::of(&[], 1.0).cosine.is_empty());
+        assert!(Spectrum::of(&Scene::base(), &[[f64::NAN, 0.0]; 64]).cosine.is_empty());
+        assert!(Spectrum::of(&Scene::base(), &[]).cosine.is_empty());
     }
 }

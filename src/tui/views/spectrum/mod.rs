@@ -9,16 +9,14 @@ use crate::sheet::Sheet;
 use crate::sheet::number::{frequency_unit, per_frequency, speed_unit};
 use crate::sheet::table::{Table, TableCell};
 use crate::tui::app::App;
-use crate::tui::axis::{ChartAxis, readable, round_out};
+use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::chart::{Chart, Curve, curves, legend};
 use crate::tui::views::panel::{ViewArea, ViewPanel, entry, not_yet, read_before, title};
-use crate::tui::views::spectrum::lines::Spectrum;
-use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
+use crate::tui::views::spectrum::lines::{DECADES, Spectrum};
+use rubscope_solver::study::figures::{Figure, Panel, Quantity};
 
-/// Ends of the amplitude axis, as powers of ten of a metre.
-const DECADES: (f64, f64) = (-10.0, -3.0);
 /// Number of parts of the speed axis in which the Campbell lines are drawn.
 const SPEEDS: u32 = 60;
 /// What the spectrum is computed from.
@@ -47,7 +45,12 @@ impl ViewPanel for SpectrumView {
         let mut sheet = Sheet::new("run", 1, app.view_command(), &app.scene);
         sheet.filed(None, table);
         let title = &app.scene.title;
-        sheet.picture(move || Figure::new(title.clone(), NOTE, vec![panel(app, spectrum)]));
+        sheet.picture(move || {
+            let label = format!("frequency [{}]", frequency_unit()).into();
+            let own = spectrum.panel.clone();
+            let x = Quantity { label, factor: per_frequency(1.0), ..own.x };
+            Figure::new(title.clone(), NOTE, vec![Panel { x, ..own }])
+        });
         Some(sheet)
     }
 }
@@ -65,46 +68,25 @@ fn lines(app: &App, speed: f64) -> [(f64, &'static str); 4] {
     ]
 }
 
-/// Returns the spectrum as a panel, over the range of the chart.
-fn panel(app: &App, spectrum: &Spectrum) -> Panel {
-    let (least, highest) = (10_f64.powf(DECADES.0), highest(app));
-    let series = |(number, (label, amplitudes)): (usize, (&str, &Vec<f64>))| {
-        let points = amplitudes.iter().enumerate();
-        let points = points.map(|(k, size)| (k as f64 * spectrum.resolution, size.max(least)));
-        Series::new(label, Style::Line(number), points.take_while(|(w, _)| *w <= highest))
-    };
-    let series =
-        [("u_c", &spectrum.cosine), ("u_s", &spectrum.sine)].into_iter().enumerate().map(series);
-    let x = Quantity {
-        label: format!("frequency [{}]", frequency_unit()).into(),
-        ..Quantity::new("frequency_rad_s", "", per_frequency(1.0))
-    };
-    Panel::new("", x, Quantity::log("u_m", "amplitude [m]"), series.collect())
-}
-
-/// Returns the end of the frequency axis \[rad/s\].
-fn highest(app: &App) -> f64 {
-    let most = (app.machine.nu(app.speed().abs()) + app.machine.omega_bd).max(app.machine.omega_c);
-    round_out(0.0, 1.3 * most, 5).1
-}
-
 fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let quiet = look.style(Role::Quiet);
-    let x = ChartAxis::frequencies(0.0, highest(app));
+    let unit = (format!("m by {}", frequency_unit()), quiet);
+    let Some(spectrum) = app.results().found.spectrum.as_deref() else {
+        let inside = title(app, buffer, at, "spectrum", &[unit, (NOTE.to_string(), quiet)]);
+        return not_yet(app, buffer, inside);
+    };
+    let x = ChartAxis::frequencies(0.0, spectrum.highest);
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
-    let spectrum = app.results().found.spectrum.as_deref();
-    let panel = spectrum.map(|spectrum| panel(app, spectrum));
-    let mut entries = vec![(format!("m by {}", frequency_unit()), quiet)];
-    entries.extend(panel.iter().flat_map(|panel| legend(look, panel)).flatten());
-    let read = cursor.and_then(|frequency| reading(spectrum?, frequency));
+    let mut entries = vec![unit];
+    entries.extend(legend(look, &spectrum.panel).into_iter().flatten());
+    let read = cursor.and_then(|frequency| reading(spectrum, frequency));
     let name = read_before(look, &mut entries, read, "spectrum");
     entries.push((NOTE.to_string(), quiet));
     let inside = title(app, buffer, at, name, &entries);
-    let Some(panel) = panel else { return not_yet(app, buffer, inside) };
     let marks = lines(app, app.speed());
     let mut chart = Chart::new(x, ChartAxis::powers(DECADES.0, DECADES.1, None));
-    (chart.marks, chart.read, chart.curves) = (&marks, cursor, curves(look, &panel));
+    (chart.marks, chart.read, chart.curves) = (&marks, cursor, curves(look, &spectrum.panel));
     chart.draw(app, buffer, at, inside);
 }
 

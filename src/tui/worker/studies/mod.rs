@@ -139,8 +139,7 @@ impl Study for SpectrumStudy {
     }
 
     fn begin(_: &u64, given: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
-        let length = given.order.scene.solver.end_s;
-        Job::done(Spectrum::of(&given.run.signal(), length))
+        Job::done(Spectrum::of(&given.order.scene, &given.run.signal()))
     }
 }
 
