@@ -226,9 +226,9 @@ fn every_view_has_its_picture_on_the_page_of_the_explorer() {
         let scene = Scene::builtin(if view == "9" { "coincidence" } else { "paper-nd3" }).unwrap();
         let mut session = Session::open(80, 24, scene, Theme::Dark, Marker::Braille);
         session.engine.map_cells = usize::MAX;
-        for keys in [format!("{view}f").as_str(), "", "", "", ""] {
-            session.press(keys);
-        }
+        session.press(&format!("{view}f"));
+        // The second page of view 1 is nearly full.
+        (0..if view == "1" { 9 } else { 4 }).for_each(|_| drop(session.press("")));
         let file = format!("assets/pictures/view-{view}.svg");
         if view != "7" || !std::path::Path::new(&file).exists() {
             assert_is_made(&file, &export::svg(&session.app));
