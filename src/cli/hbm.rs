@@ -12,8 +12,8 @@ use super::words::Words;
 use crate::sheet::CommandLine;
 use crate::sheet::hbm::{LOCKED, Request, VIEWS, View};
 use crate::sheet::ticks::linspace;
-use rubscope_solver::harmonic::{Form, HarmonicError};
-use rubscope_solver::scene::Scene;
+use rubscope_solver::harmonic::Form;
+use rubscope_solver::scene::{Scene, SceneError};
 
 /// Number of speeds of the default sweep, from standstill to the speed of the scene.
 const SPEEDS: usize = 51;
@@ -138,11 +138,8 @@ impl HbmCommand {
 }
 
 /// Turns an error of the harmonic solver into a refusal (exit status 2): the input was wrong.
-fn refused(error: HarmonicError) -> Refusal {
-    let message = error.to_string();
+fn refused(error: SceneError) -> Refusal {
     // The library names its argument `blades`; the user typed `--blades`.
-    Refusal::because(match error {
-        HarmonicError::Blades { .. } => format!("--{message}"),
-        _ => message,
-    })
+    let dashes = if error.is_of("blades") { "--" } else { "" };
+    Refusal::because(format!("{dashes}{error}"))
 }

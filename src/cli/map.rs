@@ -16,7 +16,7 @@ use crate::sheet::map as report;
 use crate::sheet::number::from_shown;
 use crate::sheet::part::{self, Shard};
 use rubscope_solver::scene::keys;
-use rubscope_solver::study::{Axis, AxisError, Map, MapPlan};
+use rubscope_solver::study::{Axis, Map, MapPlan};
 
 /// Upper bound of `--threads`, above the number of cores of usual machines.
 const MOST_THREADS: u32 = 1024;
@@ -104,16 +104,15 @@ impl MapCommand {
     fn plan(&self) -> anyhow::Result<MapPlan> {
         let swept = Swept { speed: self.x.is_none(), pulse: self.y.is_none() };
         let resolved = self.options.resolve(swept)?;
-        let axis = |text: &Option<String>, path: &str, range: Option<Range>, from, to, count| {
-            let axis = match (text, range) {
-                (Some(text), _) => Axis::parse(text),
-                (None, Some(range)) => {
-                    let count = u32::try_from(range.count).unwrap_or(u32::MAX);
-                    Axis::new(path, range.from, range.to, count, false)
-                }
-                (None, None) => Axis::new(path, from, to, count, false),
-            };
-            axis.map_err(|error: AxisError| Refusal::because(error.to_string()))
+        let axis = |text: &Option<String>, path: &str, range: Option<Range>, from, to, count| match (
+            text, range,
+        ) {
+            (Some(text), _) => Axis::parse(text),
+            (None, Some(range)) => {
+                let count = u32::try_from(range.count).unwrap_or(u32::MAX);
+                Axis::new(path, range.from, range.to, count, false)
+            }
+            (None, None) => Axis::new(path, from, to, count, false),
         };
         let scene = resolved.scene;
         // The default range ends at a round number in the unit shown.

@@ -7,12 +7,12 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::output::OutputOptions;
 use super::sign;
-use super::status::{self, Done, Refusal, Status};
+use super::status::{self, Done, Status};
 use crate::sheet::number::with_typed_unit;
 use crate::sheet::{CommandLine, margins as report};
 use rubscope_solver::motion::to_the_end;
 use rubscope_solver::scene::{CheckedScene, Quantity};
-use rubscope_solver::study::margins::{LimitName, Margins, Target, TargetError};
+use rubscope_solver::study::margins::{LimitName, Margins, Target};
 
 /// Find how far a run is from another verdict and from every limit, and what moves each limit most.
 ///
@@ -43,10 +43,7 @@ impl MarginsCommand {
         self.options.ask_speed(&scene);
         self.options.note_assumed(&scene);
         let target = match (&self.target(), &self.by) {
-            (Some(target), Some(by)) => {
-                let refused = |error: TargetError| Refusal::because(error.to_string());
-                Some(Target::parse(target, by).map_err(refused)?)
-            }
+            (Some(target), Some(by)) => Some(Target::parse(target, by)?),
             _ => None,
         };
         status::say_noted();

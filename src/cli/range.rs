@@ -1,9 +1,7 @@
 //! `FROM:TO:COUNT`, a range of values that a command sweeps; and whole numbers in a range.
 
-use super::status::Refusal;
 use crate::sheet::ticks::linspace;
-use rubscope_solver::scene::Quantity;
-use rubscope_solver::scene::units::RangeError;
+use rubscope_solver::scene::{Quantity, SceneError};
 use rubscope_solver::study::parse_range;
 
 /// Largest number of values in a range of an option.
@@ -26,19 +24,13 @@ impl Range {
     /// # Errors
     /// The text has another form, an end is not a finite number of the quantity, or the count is
     /// outside 1 to 100,000.
-    pub fn parse(name: &str, text: &str, of: Quantity) -> Result<Self, Refusal> {
-        match parse_range(text, of) {
-            Ok((from, to, count))
-                if from.is_finite() && to.is_finite() && (1..=MOST).contains(&count) =>
-            {
-                Ok(Self { from, to, count })
-            }
-            Err(RangeError::End(why)) => Err(Refusal::because(format!("{name} = {text}: {why}"))),
-            _ => {
-                let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");
-                Err(Refusal::of(name, text, form))
-            }
+    pub fn parse(name: &str, text: &str, of: Quantity) -> Result<Self, SceneError> {
+        let form = format!("FROM:TO:COUNT, two numbers and a count from 1 to {MOST}");
+        let ([from, to], count) = parse_range(name, text, of, &form)?;
+        if from.is_finite() && to.is_finite() && (1..=MOST).contains(&count) {
+            return Ok(Self { from, to, count });
         }
+        Err(SceneError::refused(name, text, form))
     }
 
     /// Returns the values.

@@ -6,11 +6,11 @@ use clap::Args;
 
 use super::options::{SceneOptions, ask_unit};
 use super::output::OutputOptions;
-use super::status::{self, Done, Refusal, Status};
+use super::status::{self, Done, Status};
 use crate::sheet::number::with_typed_unit;
 use crate::sheet::{CommandLine, survey as report};
 use rubscope_solver::scene::{Quantity, keys, speed_range};
-use rubscope_solver::study::margins::{TargetError, parameter};
+use rubscope_solver::study::margins::parameter;
 use rubscope_solver::study::survey::Survey;
 
 /// Find which nodal diameters can lock in a range of speeds, and their limits.
@@ -48,9 +48,7 @@ impl SurveyCommand {
             ask_unit("--range", text, range, &scene);
         }
         let by = match &self.by {
-            Some(path) => Some(parameter(path.trim()).ok_or_else(|| {
-                Refusal::because(TargetError::Parameter { path: path.clone() }.to_string())
-            })?),
+            Some(path) => Some(parameter(path.trim())?),
             None => None,
         };
         status::say_noted();

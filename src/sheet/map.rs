@@ -12,7 +12,7 @@ use super::{CommandLine, Sheet};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::{Key, keys};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
-use rubscope_solver::study::{Axis, Cell, Map, MapPlan, overlay};
+use rubscope_solver::study::{Axis, Cell, Doubt, Map, MapPlan, overlay};
 
 /// Largest number of rows of the text map.
 const TEXT_ROWS: usize = 40;
@@ -46,8 +46,8 @@ pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
 /// Columns of the cells of the map.
 const CELLS: [Column<'_, Cell>; 3] = [
     ("verdict", |cell| cell.verdict.as_ref().into()),
-    ("sensitive", |cell| cell.sensitive.into()),
-    ("depends_on_step", |cell| cell.depends_on_step.into()),
+    ("sensitive", |cell| (cell.doubt == Doubt::Sensitive).into()),
+    ("depends_on_step", |cell| (cell.doubt == Doubt::Step).into()),
 ];
 
 /// Returns the command that computes this map, all of its shares at once.
@@ -247,7 +247,7 @@ fn legend(map: &Map) -> Vec<String> {
             format!("{plain}  {verdict}, {}: {count} of {cells} cells", means(verdict))
         })
         .collect();
-    let doubtful = |verdict| Cell { sensitive: true, ..Cell::of(verdict) };
+    let doubtful = |verdict| Cell { verdict, doubt: Doubt::Sensitive };
     let letters = Verdict::ALL.map(|verdict| mark(Some(doubtful(verdict))));
     let letters = letters.map(String::from).join(" ");
     let whys = [

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map::{self, row};
 use super::table::Table;
-use rubscope_solver::scene::Scene;
-use rubscope_solver::study::{Axis, AxisError, Cell, Map, MapPlan};
+use rubscope_solver::scene::{Scene, SceneError};
+use rubscope_solver::study::{Axis, Cell, Doubt, Map, MapPlan};
 
 /// Start of the first line; the origin of the cells follows as JSON.
 const START: &str = concat!("# rubscope ", env!("RUBSCOPE_VERSION"), " map ");
@@ -56,7 +56,7 @@ struct Origin {
 
 impl Origin {
     /// Returns the plan, completely checked.
-    fn plan(self) -> Result<MapPlan, AxisError> {
+    fn plan(self) -> Result<MapPlan, SceneError> {
         let axis = |axis: Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
         let scene = Scene::from_toml_unchecked(&self.scene)?;
         let (x, y) = (axis(self.x)?, axis(self.y)?);
@@ -134,7 +134,7 @@ pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Resul
             if map.cells[index].is_some() {
                 return Err(refused(&format!("cell {index} (line {line}) is there twice")));
             }
-            map.cells.set(index, Some(cell));
+            map.cells[index] = Some(cell);
             map.runs += 1;
         }
         joined = Some((known, map));
@@ -167,7 +167,11 @@ fn parse_row(record: &csv::StringRecord, plan: &MapPlan) -> Option<(usize, Cell)
     if !is_at(record.get(1)?, x) || !is_at(record.get(2)?, y) {
         return None;
     }
-    let (verdict, sensitive) = (record.get(3)?.parse().ok()?, record.get(4)?.parse().ok()?);
-    let depends_on_step = record.get(5)?.parse().ok()?;
-    Some((index, Cell { verdict, sensitive, depends_on_step }))
+    let verdict = record.get(3)?.parse().ok()?;
+    let doubt = match (record.get(4)?.parse().ok()?, record.get(5)?.parse().ok()?) {
+        (true, _) => Doubt::Sensitive,
+        (false, true) => Doubt::Step,
+        (false, false) => Doubt::None,
+    };
+    Some((index, Cell { verdict, doubt }))
 }

@@ -8,7 +8,7 @@ use rubscope::cli::range::Range;
 use rubscope::cli::script::RequestedScript;
 use rubscope::sheet::part::{read_all, write};
 use rubscope_solver::scene::{Allowed, BUILTIN, CheckedScene, KEYS, Quantity, Scene, Value, keys};
-use rubscope_solver::study::{Axis, Cell, Map, MapPlan};
+use rubscope_solver::study::{Axis, Cell, Doubt, Map, MapPlan};
 
 /// A kind of input.
 pub struct Target {
@@ -241,12 +241,12 @@ fn part_seeds() -> Vec<Vec<u8>> {
         // Invented cells: a run is not what is tested.
         for index in (0..map.cells.len()).step_by(step) {
             let verdict = rubscope_solver::motion::Verdict::ALL[index % 6];
-            let cell = Cell {
-                verdict,
-                sensitive: plan.sensitivity && index % 2 == 1,
-                depends_on_step: plan.sensitivity && index % 4 == 2,
+            let doubt = match index % 4 {
+                1 | 3 if plan.sensitivity => Doubt::Sensitive,
+                2 if plan.sensitivity => Doubt::Step,
+                _ => Doubt::None,
             };
-            map.cells.set(index, Some(cell));
+            map.cells[index] = Some(Cell { verdict, doubt });
         }
         let mut bytes = Vec::new();
         write(&map, &mut bytes).unwrap();

@@ -2,7 +2,7 @@
 //! equations of motion of the standing frame.
 
 use nalgebra::Complex;
-use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, drives};
+use rubscope_solver::harmonic::{ExcitedLock, drives, excited_locks};
 use rubscope_solver::model::{BladedDisk, Casing, Excitation, Machine};
 
 fn machine(nodal_diameters: u32) -> Machine {
@@ -11,7 +11,7 @@ fn machine(nodal_diameters: u32) -> Machine {
 
 fn lock(machine: &Machine, speed: f64, order: u32, amplitude_nm: f64) -> ExcitedLock {
     let excitation = Excitation { amplitude_nm, order };
-    ExcitedLocks::over(machine, 15, &excitation, &[speed]).unwrap().lock_at(0).unwrap().unwrap()
+    excited_locks(machine, 15, &excitation, &[speed]).unwrap().remove(0)
 }
 
 #[test]

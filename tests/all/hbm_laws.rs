@@ -64,7 +64,7 @@ proptest! {
         let corner = Corner::after(&machine.polygon, a).unwrap();
         for form in Form::ALL {
             let locked = Locked::new(&machine, corner, form, damped).unwrap();
-            if let Ok(point) = locked.at(speed) {
+            if let Some(point) = locked.at(speed) {
                 prop_assert!(point.residual < 1e-11, "{form}: {}", point.residual);
                 let pushes = point.multipliers_n.iter().all(|&multiplier| multiplier <= 0.0);
                 prop_assert!(!point.admissible || pushes);
@@ -84,9 +84,9 @@ proptest! {
         let stiffer = stiffened(&machine, 1.0 + 1e-6);
         for form in Form::ALL {
             let at = |machine| Locked::new(machine, corner, form, damped).unwrap().at(speed);
-            if let Ok(point) = at(&machine) {
+            if let Some(point) = at(&machine) {
                 let neighbour = at(&stiffer);
-                prop_assert!(neighbour.is_ok(), "{form}: lost by stiffer blades");
+                prop_assert!(neighbour.is_some(), "{form}: lost by stiffer blades");
                 let neighbour = neighbour.unwrap();
                 let scale = point.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
                 for i in 0..2 {
@@ -149,7 +149,7 @@ proptest! {
             Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed)
         };
         match (at(0), at(a)) {
-            (Ok(one), Ok(other)) => {
+            (Some(one), Some(other)) => {
                 let scale = one.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
                 for i in 0..2 {
                     prop_assert!(near(one.multipliers_n[i], other.multipliers_n[i], scale));
@@ -165,7 +165,7 @@ proptest! {
                 prop_assert!(near(y, other.u_sc_m, one.amplitude_m));
                 prop_assert_eq!(one.admissible, other.admissible);
             }
-            (Err(_), Err(_)) => {}
+            (None, None) => {}
             _ => prop_assert!(false, "a corner that exists in one place only"),
         }
     }
@@ -175,7 +175,7 @@ proptest! {
         let speed = ratio * machine.critical_speed().unwrap_or(1.0);
         let corner = Corner::after(&machine.polygon, 0).unwrap();
         let locked = Locked::new(&machine, corner, Form::Modal, true).unwrap();
-        if let (Ok(one), Ok(mirror)) = (locked.at(speed), locked.at(-speed)) {
+        if let (Some(one), Some(mirror)) = (locked.at(speed), locked.at(-speed)) {
             let scale = one.multipliers_n.iter().fold(0.0_f64, |size, l| size.max(l.abs()));
             prop_assert!(near(one.multipliers_n[0], mirror.multipliers_n[1], scale));
             // The moment arms cancel but for their difference, and round each.

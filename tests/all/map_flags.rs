@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use rubscope_solver::motion::{Motion, VerdictReached, run_to_verdict, to_the_end, verdict_of};
 use rubscope_solver::scene::{CheckedScene, ModelSize, Scene};
-use rubscope_solver::study::{Axis, MapPlan};
+use rubscope_solver::study::{Axis, Doubt, MapPlan};
 
 /// Scene and casing damping of the four maps: 0 to 500 rad/s, 0 to 1 MN.
 const MAPS: [(&str, f64); 4] =
@@ -88,7 +88,7 @@ fn flag(scene: &CheckedScene, threads: usize) -> bool {
         sensitivity: true,
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| plan.compute(0, &to_the_end)).unwrap().sensitive
+    pool.install(|| plan.compute(0, &to_the_end)).unwrap().doubt == Doubt::Sensitive
 }
 
 #[test]

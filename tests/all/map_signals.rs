@@ -111,7 +111,7 @@ fn a_hang_up_that_was_ignored_at_the_start_stays_ignored() {
     assert_eq!(map.finish().status.signal(), Some(2), "the hang-up came through");
 }
 
-/// The largest map: the program's own memory, and a byte a cell.
+/// The largest map: the program's own memory, and two bytes a cell.
 #[test]
 fn a_large_map_takes_little_memory() {
     let directory = tempfile::tempdir().unwrap();
@@ -124,6 +124,6 @@ fn a_large_map_takes_little_memory() {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap();
     let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap();
     let kilobytes: u64 = most.trim().trim_end_matches(" kB").parse().unwrap();
-    // Two bytes a cell more would be seen; a list of indices takes eight.
+    // One byte a cell more would be seen; a list of indices takes eight.
     assert!(kilobytes < 48 << 10, "{kilobytes} kB for 16 million cells");
 }

@@ -2,7 +2,7 @@
 
 use rubscope_solver::scene::{CheckedScene, ContactLaw, ModelSize, Scene};
 use rubscope_solver::study::margins::{
-    CLEARANCE, Limit, LimitName, Margins, grazing_pulse, parameter,
+    CLEARANCE, Limit, LimitName, Margins, changed, grazing_pulse, parameter,
 };
 const MASS: &str = "casing.modal_mass_kg";
 const STIFFNESS: &str = "casing.modal_stiffness_n_per_m";
@@ -44,11 +44,11 @@ pub fn close(found: Option<f64>, expected: f64, most: f64, what: &str) {
 pub fn differenced(scene: &CheckedScene, path: &str, value: &dyn Fn(&CheckedScene) -> f64) -> f64 {
     let parameter = parameter(path).unwrap();
     let clearance = scene.machine().clearance();
-    let size = parameter.of(scene);
+    let size = parameter.real(scene);
     let lengths = ["casing.radius_m", "bladed_disk.blade_length_m"];
     let step = 1e-3 * if lengths.contains(&path) { clearance / size } else { 1.0 };
     let at = |part: f64| {
-        value(&parameter.set(scene, size * (1.0 + part * step)).unwrap().checked().unwrap())
+        value(&changed(parameter, scene, size * (1.0 + part * step)).unwrap().checked().unwrap())
     };
     let slope = |part: f64| (at(part) - at(-part)) / (2.0 * part * step * at(0.0));
     (4.0 * slope(0.5) - slope(1.0)) / 3.0

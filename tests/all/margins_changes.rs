@@ -3,7 +3,7 @@
 
 use rubscope_solver::motion::{Verdict, run_to_verdict, to_the_end};
 use rubscope_solver::scene::CheckedScene;
-use rubscope_solver::study::margins::{Margins, Robustness, parameter};
+use rubscope_solver::study::margins::{Margins, Robustness, changed, parameter};
 
 use crate::scene;
 
@@ -21,7 +21,7 @@ fn asked(scene: &CheckedScene) -> Margins {
 }
 
 fn verdict(scene: &CheckedScene, path: &str, value: f64) -> Verdict {
-    let changed = parameter(path).unwrap().set(scene, value).unwrap().checked().unwrap();
+    let changed = changed(parameter(path).unwrap(), scene, value).unwrap().checked().unwrap();
     run_to_verdict(&changed, &to_the_end).unwrap().verdict
 }
 
@@ -30,7 +30,7 @@ fn assert_found(scene: &CheckedScene, found: &Robustness) {
     let own = run_to_verdict(scene, &to_the_end).unwrap().verdict;
     assert_eq!((found.contact, found.verdict), (scene.solver.contact, own));
     for row in &found.changes {
-        assert_eq!(row.present, parameter(row.path).unwrap().of(scene));
+        assert_eq!(row.present, parameter(row.path).unwrap().real(scene));
         for (side, changed) in [(-1.0, row.below), (1.0, row.above)] {
             let Some(changed) = changed else { continue };
             let said = format!("{} {} {changed:?}", scene.title, row.path);

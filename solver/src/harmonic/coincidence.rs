@@ -2,9 +2,9 @@
 //! (docs/theory.md, section 4), and their effect as a function of speed, which the paper leaves to
 //! later work: the growth rate if blades rub at rest, and the wave that persists (section 10).
 
-use super::{HarmonicError, Lining, RoundWhirl, error, joined_grow};
+use super::{Lining, RoundWhirl, error, joined_grow};
 use crate::model::Machine;
-use crate::scene::{ContactLaw, Scene};
+use crate::scene::{ContactLaw, Scene, SceneError};
 
 /// Line of a Campbell diagram, `frequency = +-sqrt(at_standstill^2 + stiffening Omega^2) + slope
 /// Omega`, with the sign of `at_standstill`.
@@ -74,7 +74,7 @@ impl Campbell {
     ///
     /// # Errors
     /// `n_d = 0`, so that there are no travelling waves.
-    pub fn of(machine: &Machine, orders: &[u32], speed: f64) -> Result<Self, HarmonicError> {
+    pub fn of(machine: &Machine, orders: &[u32], speed: f64) -> Result<Self, SceneError> {
         let n_d = machine.nodal_diameters;
         error::refuse_no_wave(machine)?;
         let (omega_c, omega_bd) = (machine.omega_c, machine.omega_bd_at_rest());
@@ -137,7 +137,7 @@ pub struct CoincidencePoint {
 ///
 /// # Errors
 /// Blades and casing are not coupled by a single travelling wave, or a speed is not finite.
-pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint>, HarmonicError> {
+pub fn coincidence(scene: &Scene, speeds: &[f64]) -> Result<Vec<CoincidencePoint>, SceneError> {
     let machine = scene.machine();
     // Created for rigid contact, too, because it checks the machine.
     let lining = Lining::of(&machine, &scene.contact)?;
@@ -164,7 +164,7 @@ pub fn shifted_coincidence(scene: &Scene, speed: f64) -> Option<f64> {
     smooth.then(|| lining.shifted_coincidence(speed)).flatten()
 }
 
-fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, HarmonicError> {
+fn on_lining(lining: &Lining, speed: f64) -> Result<CoincidencePoint, SceneError> {
     let rubs = lining.stiffness_at_rest() > 0.0;
     let cycle = lining.cycles(speed)?.into_iter().find(|cycle| cycle.stable);
     Ok(CoincidencePoint {

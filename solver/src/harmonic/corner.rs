@@ -1,12 +1,9 @@
 //! Corners of the polygon: the two phase groups that hold a locked wave (docs/theory.md, section
 //! 3), named by blade numbers as in the paper (#6 and #21).
-//!
-//! [`Configuration`] contains the displacements of casing and blades, from which every gap follows.
 
-use super::equations::Scales;
-use super::stability::Kept;
-use super::{HarmonicError, error};
-use crate::model::{ContactPolygon, Frame, Machine, Row};
+use super::error;
+use crate::model::{ContactPolygon, Machine};
+use crate::scene::SceneError;
 
 /// The pair of blades in the paper.
 pub const PAPER_PAIR: [u32; 2] = [6, 21];
@@ -25,7 +22,7 @@ impl Corner {
     ///
     /// # Errors
     /// The polygon has no corners.
-    pub fn after(polygon: &ContactPolygon, a: u32) -> Result<Self, HarmonicError> {
+    pub fn after(polygon: &ContactPolygon, a: u32) -> Result<Self, SceneError> {
         error::refuse_no_corner(polygon)?;
         let a = a % polygon.sides;
         Ok(Self { a, b: polygon.next(a) })
@@ -38,29 +35,24 @@ impl Corner {
     /// # Errors
     /// The polygon has no corners, no corner of the tips is ever held, or the blades do not form a
     /// corner.
-    pub fn of(
-        machine: &Machine,
-        speed: f64,
-        blades: Option<[u32; 2]>,
-    ) -> Result<Self, HarmonicError> {
+    pub fn of(machine: &Machine, speed: f64, blades: Option<[u32; 2]>) -> Result<Self, SceneError> {
         let polygon = &machine.polygon;
         if !machine.has_unequal_tips() {
             return blades
                 .map_or_else(|| Self::paper(polygon), |pair| Self::of_blades(polygon, pair));
         }
         error::refuse_no_corner(polygon)?;
-        let Some([first, second]) = blades else {
+        let Some(blades) = blades else {
             let lowest = machine.lowest_corner(speed).map(|(corner, _)| corner.sides);
             return lowest.map(|[a, b]| Self { a, b }).ok_or_else(error::no_corner_of_tips);
         };
-        let pair = [first, second].map(|blade| polygon.side_of_blade(blade));
+        let pair = blades.map(|blade| polygon.side_of_blade(blade));
         let corners = machine.tip_corners();
         let of_pair = corners.iter().find(|corner| pair.iter().all(|x| corner.sides.contains(x)));
         of_pair.map(|corner| Self { a: corner.sides[0], b: corner.sides[1] }).ok_or_else(|| {
             let name = |side: u32| polygon.blades_of_side(side)[0].to_string();
             let pairs = corners.iter().map(|corner| corner.sides.map(name).join(","));
-            let allowed = format!("one of {}", pairs.collect::<Vec<_>>().join(" or "));
-            HarmonicError::Blades { first, second, allowed }
+            error::no_pair(blades, format!("one of {}", pairs.collect::<Vec<_>>().join(" or ")))
         })
     }
 
@@ -70,7 +62,7 @@ impl Corner {
     ///
     /// # Errors
     /// The polygon has no corners.
-    pub fn paper(polygon: &ContactPolygon) -> Result<Self, HarmonicError> {
+    pub fn paper(polygon: &ContactPolygon) -> Result<Self, SceneError> {
         if polygon.has_corners() && polygon.blades >= PAPER_PAIR[1] {
             let [a, b] = PAPER_PAIR.map(|blade| polygon.side_of_blade(blade));
             if polygon.next(a) == b {
@@ -90,9 +82,9 @@ impl Corner {
     pub fn of_blades(
         polygon: &ContactPolygon,
         [first, second]: [u32; 2],
-    ) -> Result<Self, HarmonicError> {
+    ) -> Result<Self, SceneError> {
         error::refuse_no_corner(polygon)?;
-        let refused = |allowed| Err(HarmonicError::Blades { first, second, allowed });
+        let refused = |allowed| Err(error::no_pair([first, second], allowed));
         if ![first, second].iter().all(|blade| (1..=polygon.blades).contains(blade)) {
             return refused(format!("two blades from 1 to {}", polygon.blades));
         }
@@ -122,94 +114,6 @@ impl Corner {
     #[must_use]
     pub fn sides(self) -> [u32; 2] {
         [self.a, self.b]
-    }
-}
-
-/// Displacements of casing and blades: `z` in units of `g0`, and the modal blade angles
-/// `n_d alpha_c`, `n_d alpha_s` \[rad\].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Configuration {
-    pub z: (f64, f64),
-    pub turn: (f64, f64),
-    /// Effect of a blade angle on its gap, `kappa l_b/(n_d g0)`.
-    pub slope: f64,
-}
-
-impl Configuration {
-    /// Creates the configuration with blades bent by contact forces, each given as side, scaled
-    /// multiplier and lever; `compliance` is softness times share.
-    pub fn bent(
-        polygon: &ContactPolygon,
-        z: (f64, f64),
-        compliance: f64,
-        loads: &[(u32, f64, f64)],
-    ) -> Self {
-        let mut turn = (0.0, 0.0);
-        for &(side, multiplier, arm) in loads {
-            let (c, s) = polygon.direction(side);
-            turn.0 -= compliance * multiplier * arm * c;
-            turn.1 -= compliance * multiplier * arm * s;
-        }
-        Self { z, turn, ..Self::default() }
-    }
-
-    /// Returns the blade angle `n_d alpha` of a side.
-    fn turn_of(&self, (c, s): (f64, f64)) -> f64 {
-        c * self.turn.0 + s * self.turn.1
-    }
-
-    /// Returns the direction `exp(i (psi + n_d alpha))` of a side.
-    pub fn direction(&self, polygon: &ContactPolygon, side: u32) -> (f64, f64) {
-        let (c, s) = polygon.direction(side);
-        let (sin, cos) = self.turn_of((c, s)).sin_cos();
-        (c * cos - s * sin, s * cos + c * sin)
-    }
-
-    /// Returns the gap of a side in units of `g0`.
-    pub fn gap(&self, polygon: &ContactPolygon, side: u32) -> f64 {
-        let (c, s) = self.direction(polygon, side);
-        let rise = self.slope * self.turn_of(polygon.direction(side));
-        polygon.relative_apothem(side) + self.z.0 * c + self.z.1 * s - rise
-    }
-
-    /// Returns the smallest gap, in units of `g0`, of the sides that are not in `contacts`;
-    /// infinite if there are none.
-    pub fn smallest_gap(&self, polygon: &ContactPolygon, contacts: &[u32]) -> f64 {
-        // Bent blades reduce no gap by more than this.
-        let nearer = self.turn.0.hypot(self.turn.1) * (self.z.0.hypot(self.z.1) + self.slope.abs());
-        let first = contacts.last().map_or(0, |side| polygon.next(*side));
-        let mut least = f64::INFINITY;
-        for side in (first..polygon.sides).chain(0..first) {
-            let (c, s) = polygon.direction(side);
-            let unbent = polygon.relative_apothem(side) + self.z.0 * c + self.z.1 * s;
-            if unbent - nearer < least && !contacts.contains(&side) {
-                least = least.min(self.gap(polygon, side));
-            }
-        }
-        least
-    }
-
-    /// Returns the tangential offset `Im[z exp(-i (psi + n_d alpha))]` of a side, in units of `g0`.
-    pub fn across(&self, polygon: &ContactPolygon, side: u32) -> f64 {
-        let (c, s) = self.direction(polygon, side);
-        self.z.1 * c - self.z.0 * s
-    }
-
-    /// Returns this state at a rotor speed with the contacts `loads`, each a side and its scaled
-    /// multiplier.
-    pub fn kept(&self, machine: &Machine, speed: f64, loads: &[(u32, f64)]) -> Kept {
-        let frame = Frame::at(machine, speed);
-        let Scales { length, force, .. } = Scales::new(machine);
-        let place = (self.z.0 * length, self.z.1 * length);
-        let multipliers: Vec<f64> = loads.iter().map(|load| load.1 * force).collect();
-        let row = |(&(side, _), multiplier): (&(u32, f64), &f64)| {
-            let direction = machine.polygon.direction(side);
-            let turn = self.turn_of(direction);
-            let alpha = if turn == 0.0 { 0.0 } else { turn / machine.nodal_diameters };
-            Row::new(&frame, direction, place, alpha, *multiplier)
-        };
-        let rows = loads.iter().zip(&multipliers).map(row).collect();
-        Kept { frame, rows, multipliers, rate: machine.omega_c }
     }
 }
 

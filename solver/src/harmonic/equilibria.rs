@@ -8,12 +8,11 @@ use std::borrow::Cow;
 use nalgebra::Complex;
 use strum::AsRefStr;
 
-use super::corner::Configuration;
-use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::stability::{at_rest, grows, largest_growth};
-use super::{Corner, Form, HarmonicError, error};
+use super::held::{Held, at_rest, grows, largest_growth};
+use super::{Corner, Form, error};
 use crate::model::Machine;
 use crate::numeric::search::try_bisected;
+use crate::scene::SceneError;
 
 /// Largest number of changes of character that are located between two neighbouring speeds.
 const BRANCH_CHANGES: usize = 16;
@@ -155,7 +154,7 @@ pub fn equilibria(
     machine: &Machine,
     speed: f64,
     damped: bool,
-) -> Result<Vec<Equilibrium>, HarmonicError> {
+) -> Result<Vec<Equilibrium>, SceneError> {
     let corner = Corner::paper(&machine.polygon).ok();
     let side = corner.map_or(0, |corner| corner.a);
     let all = Kind::ALL.map(|kind| equilibrium(machine, kind, side, speed, damped));
@@ -177,7 +176,7 @@ pub fn equilibrium(
     side: u32,
     speed: f64,
     damped: bool,
-) -> Result<Option<Equilibrium>, HarmonicError> {
+) -> Result<Option<Equilibrium>, SceneError> {
     error::refuse_endless(&[speed])?;
     error::refuse_other_diameters(machine)?;
     error::refuse_tips(machine, "0 where every equilibrium is asked; the lock takes it")?;
@@ -188,64 +187,18 @@ pub fn equilibrium(
         // The blades have grown into the casing.
         return Ok(None);
     }
-    let wave = Wave::at(machine, speed, true);
-    let scales = Scales::new(machine);
-    let loads = match kind {
-        Kind::Rest => Some(((0.0, 0.0), Vec::new())),
-        Kind::Side => on_side(machine, &scales, wave, side),
-        Kind::Corner => in_corner(machine, wave, speed, side),
+    let corner = || Corner::after(&machine.polygon, side).ok();
+    let held = match kind {
+        Kind::Rest => Some(Held::rest(machine, speed)),
+        Kind::Side => Held::on_side(machine, speed, side),
+        Kind::Corner => {
+            corner().and_then(|corner| Held::in_corner(machine, speed, corner, Form::Modal))
+        }
     };
-    let Some((z, loads)) = loads else { return Ok(None) };
-    let compliance = scales.softness * scales.share;
-    let configuration = Configuration::bent(&machine.polygon, z, compliance, &loads);
-    judged(machine, kind, speed, &configuration, &loads).map(Some)
+    held.map(|held| judged(machine, kind, speed, &held)).transpose()
 }
 
-/// Scaled `z` and contact forces (side, multiplier, lever) of an equilibrium.
-type Loaded = ((f64, f64), Vec<(u32, f64, f64)>);
-
-/// Returns the state with contact on one side; `None` with damping at the critical speed, where its
-/// contact force is infinite. `(stiffness + i drag) z = -Lambda exp(i phi)` and
-/// the closed gap give `Lambda = (stiffness^2 + drag^2)/stiffness` and the lever `drag/stiffness`;
-/// the blade angle only turns the direction.
-fn on_side(machine: &Machine, scales: &Scales, wave: Wave, side: u32) -> Option<Loaded> {
-    let (stiffness, drag) = (wave.stiffness, wave.drag);
-    let (multiplier, arm) = if drag == 0.0 {
-        (stiffness, 0.0)
-    } else {
-        (stiffness + drag * drag / stiffness, drag / stiffness)
-    };
-    if !(multiplier.is_finite() && arm.is_finite()) {
-        return None;
-    }
-    let loads = vec![(side, multiplier, arm)];
-    let still =
-        Configuration::bent(&machine.polygon, (0.0, 0.0), scales.softness * scales.share, &loads);
-    let (c, s) = still.direction(&machine.polygon, side);
-    // From z exp(-i phi) = -1 + i arm.
-    Some(((-c - arm * s, -s + arm * c), loads))
-}
-
-fn in_corner(machine: &Machine, wave: Wave, speed: f64, side: u32) -> Option<Loaded> {
-    let corner = Corner::after(&machine.polygon, side).ok()?;
-    let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
-    let unknowns = equations.locked()?;
-    let configuration = equations.configuration(&unknowns);
-    Some((configuration.z, loads_of(machine, corner, &configuration, &unknowns)))
-}
-
-/// Returns the contact forces of a solution of the corner's equations.
-pub(super) fn loads_of(
-    machine: &Machine,
-    corner: Corner,
-    configuration: &Configuration,
-    &[.., push_a, push_b, _, _]: &Unknowns,
-) -> Vec<(u32, f64, f64)> {
-    let load = |side: u32, push: f64| (side, -push, configuration.across(&machine.polygon, side));
-    vec![load(corner.a, push_a), load(corner.b, push_b)]
-}
-
-/// Evaluates gaps, stability, torque and character of a configuration under its contact forces.
+/// Evaluates gaps, stability, torque and character of a state.
 ///
 /// # Errors
 /// The eigenvalues cannot be computed.
@@ -253,47 +206,37 @@ pub(super) fn judged(
     machine: &Machine,
     kind: Kind,
     speed: f64,
-    configuration: &Configuration,
-    loads: &[(u32, f64, f64)],
-) -> Result<Equilibrium, HarmonicError> {
-    let (polygon, scales) = (&machine.polygon, Scales::new(machine));
-    let sides: Vec<u32> = loads.iter().map(|load| load.0).collect();
-    let held: Vec<_> = loads.iter().map(|load| (load.0, load.1)).collect();
-    let motion = configuration.kept(machine, speed, &held);
+    held: &Held,
+) -> Result<Equilibrium, SceneError> {
     let eigenvalues = match kind {
         Kind::Rest => at_rest(machine, speed),
-        _ => motion.eigenvalues().ok_or(HarmonicError::Unsettled { speed })?,
+        _ => held.eigenvalues().ok_or_else(|| error::unsettled(speed))?,
     };
-    let open = configuration.smallest_gap(polygon, &sides);
-    let pushes = loads.iter().all(|load| load.1 <= 0.0);
-    let held_by_pulls = kind == Kind::Corner && machine.contact_can_pull() && motion.closes();
+    let open = held.smallest_gap(machine);
+    let held_by_pulls = kind == Kind::Corner && machine.contact_can_pull() && held.closes();
     let character =
-        Character::of(pushes, held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
-    let (x, y) = configuration.z;
-    // Torque `sum Lambda A`, which is zero at rest.
-    let moment_arm = Wave::at(machine, speed, true).drag * (x * x + y * y);
-    let torque = machine.nodal_diameters * scales.force * scales.length * moment_arm;
-    let angle = if scales.softness > 0.0 { scales.angle / scales.softness } else { 0.0 };
-    let contact = |&(side, multiplier, _): &(u32, f64, f64)| GroupContact {
+        Character::of(held.pushes(), held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
+    let contact = |(&side, &multiplier_n): (&u32, &f64)| GroupContact {
         side,
-        blades: polygon.blades_of_side(side),
-        multiplier_n: multiplier * scales.force,
+        blades: machine.polygon.blades_of_side(side),
+        multiplier_n,
     };
-    let z_m = [configuration.z.0 * scales.length, configuration.z.1 * scales.length];
+    let [x, y, alpha_c_rad, alpha_s_rad]: [f64; 4] = held.at.into();
+    let torque_nm = held.torque();
     Ok(Equilibrium {
         speed_rad_s: speed,
         kind,
         character,
         admissible: character.is_admissible(),
         stable: character == Character::Stable,
-        contacts: loads.iter().map(contact).collect(),
-        z_m,
-        amplitude_m: z_m[0].hypot(z_m[1]),
-        alpha_c_rad: configuration.turn.0 * angle,
-        alpha_s_rad: configuration.turn.1 * angle,
-        smallest_gap_m: open * scales.length,
-        torque_nm: torque,
-        power_w: torque * speed,
+        contacts: held.sides.iter().zip(&held.multipliers).map(contact).collect(),
+        z_m: [x, y],
+        amplitude_m: held.amplitude(),
+        alpha_c_rad,
+        alpha_s_rad,
+        smallest_gap_m: open,
+        torque_nm,
+        power_w: torque_nm * speed,
         growth_per_s: largest_growth(&eigenvalues),
         eigenvalues_per_s: eigenvalues,
     })
@@ -312,17 +255,13 @@ pub struct Threshold {
     pub above: Character,
 }
 
-/// Equilibria for a list of speeds. Only the thresholds are stored; states are computed on demand,
-/// because they take about a thousand bytes for each speed.
+/// Equilibria for a list of speeds, and where they change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branches {
-    machine: Machine,
-    speeds: Vec<f64>,
-    damped: bool,
+    /// Every equilibrium at each speed.
+    pub states: Vec<Equilibrium>,
     /// Thresholds between the smallest and the largest speed, in increasing order of speed.
     pub thresholds: Vec<Threshold>,
-    /// Number of equilibria over all speeds.
-    pub count: usize,
 }
 
 impl Branches {
@@ -331,68 +270,51 @@ impl Branches {
     ///
     /// # Errors
     /// As [`equilibria`].
-    pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, HarmonicError> {
-        let (machine, thresholds) = (machine.clone(), Vec::new());
-        let mut found = Self { machine, speeds: speeds.to_vec(), damped, thresholds, count: 0 };
-        for place in 0..speeds.len() {
-            found.count += found.states_at(place)?.len();
+    pub fn over(machine: &Machine, speeds: &[f64], damped: bool) -> Result<Self, SceneError> {
+        let mut states = Vec::new();
+        for &speed in speeds {
+            states.extend(equilibria(machine, speed, damped)?);
         }
-        let mut sorted = speeds.to_vec();
-        sorted.sort_by(f64::total_cmp);
+        let side = Corner::paper(&machine.polygon).map_or(0, |corner| corner.a);
         let mut thresholds = Vec::new();
         for kind in Kind::ALL {
-            let character = |speed| -> Result<Character, HarmonicError> {
-                Ok(found.at(kind, speed)?.map_or(Character::Absent, |state| state.character))
+            let character = |speed| -> Result<Character, SceneError> {
+                let state = equilibrium(machine, kind, side, speed, damped)?;
+                Ok(state.map_or(Character::Absent, |state| state.character))
             };
-            for pair in sorted.windows(2) {
-                if let [low, high] = *pair {
-                    let here = changes(low, high, &character)?.into_iter();
-                    thresholds.extend(here.map(|(speed_rad_s, below, above)| Threshold {
-                        speed_rad_s,
-                        kind,
-                        below,
-                        above,
-                    }));
-                }
-            }
+            let found = changes(speeds, &character)?.into_iter();
+            thresholds.extend(found.map(|(speed_rad_s, below, above)| Threshold {
+                speed_rad_s,
+                kind,
+                below,
+                above,
+            }));
         }
         thresholds.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-        Ok(Self { thresholds, ..found })
-    }
-
-    /// Returns the number of speeds.
-    #[must_use]
-    pub fn speeds(&self) -> usize {
-        self.speeds.len()
-    }
-
-    /// Returns every equilibrium at a speed, given by its index in the list.
-    ///
-    /// # Errors
-    /// None, because [`over`](Self::over) has computed these states before.
-    pub fn states_at(&self, place: usize) -> Result<Vec<Equilibrium>, HarmonicError> {
-        let mut states = Vec::new();
-        if let Some(&speed) = self.speeds.get(place) {
-            for kind in Kind::ALL {
-                states.extend(self.at(kind, speed)?);
-            }
-        }
-        Ok(states)
-    }
-
-    fn at(&self, kind: Kind, speed: f64) -> Result<Option<Equilibrium>, HarmonicError> {
-        let side = Corner::paper(&self.machine.polygon).map_or(0, |corner| corner.a);
-        equilibrium(&self.machine, kind, side, speed, self.damped)
+        Ok(Self { states, thresholds })
     }
 }
 
-/// Returns the changes of `what` between two speeds as far as bisection finds them: the speed, and
-/// the values below and above.
+/// Returns the changes of `what` between neighbours of a list of speeds: the speed, and the values
+/// below and above.
 pub(super) fn changes<T: Copy + PartialEq>(
+    speeds: &[f64],
+    what: &impl Fn(f64) -> Result<T, SceneError>,
+) -> Result<Vec<(f64, T, T)>, SceneError> {
+    let (mut found, mut sorted) = (Vec::new(), speeds.to_vec());
+    sorted.sort_by(f64::total_cmp);
+    for pair in sorted.windows(2) {
+        found.extend(changes_between(pair[0], pair[1], what)?);
+    }
+    Ok(found)
+}
+
+/// Returns the changes between two speeds as far as bisection finds them.
+fn changes_between<T: Copy + PartialEq>(
     low: f64,
     high: f64,
-    what: &impl Fn(f64) -> Result<T, HarmonicError>,
-) -> Result<Vec<(f64, T, T)>, HarmonicError> {
+    what: &impl Fn(f64) -> Result<T, SceneError>,
+) -> Result<Vec<(f64, T, T)>, SceneError> {
     let mut found: Vec<(f64, T, T)> = Vec::new();
     let (mut start, mut before, last) = (low, what(low)?, what(high)?);
     while before != last && found.len() < BRANCH_CHANGES {

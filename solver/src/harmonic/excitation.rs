@@ -8,11 +8,11 @@
 
 use nalgebra::{Complex, Matrix6, Vector6};
 
-use super::equations::{Equations, Wave};
-use super::equilibria::{judged, loads_of};
-use super::stability::Kept;
-use super::{Corner, Equilibrium, Form, HarmonicError, Kind, error};
+use super::equilibria::judged;
+use super::held::Held;
+use super::{Corner, Equilibrium, Form, Kind, error};
 use crate::model::{Excitation, Machine};
+use crate::scene::SceneError;
 
 /// Locked motion and its response to an engine order at one speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,81 +58,39 @@ fn reach(machine: &Machine, order: u32) -> (bool, bool) {
     ((diameters + order).is_multiple_of(blades), diameters == order)
 }
 
-/// Responses of the damped locked motion (form `modal`) in one corner for a list of speeds. They
-/// are computed on demand to save memory.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ExcitedLocks {
-    machine: Machine,
-    corner: Corner,
-    excitation: Excitation,
-    speeds: Vec<f64>,
-    /// Number of speeds with a locked motion.
-    pub count: usize,
+/// Returns the responses of the damped locked motion (form `modal`) in the corner after a side, for
+/// each of a list of speeds \[rad/s\] with a lock and a clearance, unless it is that of an undamped
+/// resonance.
+///
+/// # Errors
+/// The polygon has no corners, the tips are inclined or rub, the disk modes have other nodal
+/// diameters, a speed is not finite, or eigenvalues cannot be computed.
+pub fn excited_locks(
+    machine: &Machine,
+    side: u32,
+    excitation: &Excitation,
+    speeds: &[f64],
+) -> Result<Vec<ExcitedLock>, SceneError> {
+    let corner = Corner::after(&machine.polygon, side)?;
+    error::refuse_other_diameters(machine)?;
+    error::refuse_tips(machine, "0 for an excited lock")?;
+    error::refuse_endless(speeds)?;
+    let at = |&speed: &f64| lock_at(machine, corner, excitation, speed).transpose();
+    speeds.iter().filter_map(at).collect()
 }
 
-impl ExcitedLocks {
-    /// Creates the responses for a list of speeds \[rad/s\].
-    ///
-    /// # Errors
-    /// The polygon has no corners, the tips are inclined or rub, the disk modes have other nodal
-    /// diameters, a speed is not finite, or eigenvalues cannot be computed.
-    pub fn over(
-        machine: &Machine,
-        side: u32,
-        excitation: &Excitation,
-        speeds: &[f64],
-    ) -> Result<Self, HarmonicError> {
-        let corner = Corner::after(&machine.polygon, side)?;
-        error::refuse_other_diameters(machine)?;
-        error::refuse_tips(machine, "0 for an excited lock")?;
-        let (machine, excitation) = (machine.clone(), excitation.clone());
-        let mut found = Self { machine, corner, excitation, speeds: speeds.to_vec(), count: 0 };
-        for place in 0..speeds.len() {
-            found.count += usize::from(found.lock_at(place)?.is_some());
-        }
-        Ok(found)
-    }
-
-    /// Returns the number of speeds.
-    #[must_use]
-    pub fn places(&self) -> usize {
-        self.speeds.len()
-    }
-
-    /// Returns the excited locked motion at a speed, given by its index in the list; `None` if
-    /// there is no lock or no clearance at that speed, at an undamped resonance, and for an index
-    /// beyond the list.
-    ///
-    /// # Errors
-    /// Does not fail, because [`over`](Self::over) has computed every speed before.
-    pub fn lock_at(&self, place: usize) -> Result<Option<ExcitedLock>, HarmonicError> {
-        let Some(&speed) = self.speeds.get(place) else { return Ok(None) };
-        error::refuse_endless(&[speed])?;
-        at(&self.machine, self.corner, &self.excitation, speed)
-    }
-}
-
-fn at(
+fn lock_at(
     machine: &Machine,
     corner: Corner,
     excitation: &Excitation,
     speed: f64,
-) -> Result<Option<ExcitedLock>, HarmonicError> {
+) -> Result<Option<ExcitedLock>, SceneError> {
     let machine = &*machine.at(speed);
-    if machine.clearance() <= 0.0 {
-        return Ok(None);
-    }
-    let wave = Wave::at(machine, speed, true);
-    let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
-    let Some(unknowns) = equations.locked() else { return Ok(None) };
-    let configuration = equations.configuration(&unknowns);
-    let loads = loads_of(machine, corner, &configuration, &unknowns);
-    let held: Vec<_> = loads.iter().map(|load| (load.0, load.1)).collect();
-    let state = judged(machine, Kind::Corner, speed, &configuration, &loads)?;
-    let kept = configuration.kept(machine, speed, &held);
+    let Some(held) = Held::in_corner(machine, speed, corner, Form::Modal) else { return Ok(None) };
+    let state = judged(machine, Kind::Corner, speed, &held)?;
     let frequency = f64::from(excitation.order) * speed;
     let load = modal_load(machine, excitation.order).map(|part| part * excitation.amplitude_nm);
-    let Some([x, y, c, s, a, b]) = forced(&kept, load, frequency) else { return Ok(None) };
+    let Some([x, y, c, s, a, b]) = forced(&held, load, frequency) else { return Ok(None) };
     let (response, multipliers) = ([x, y, c, s], [a, b]);
     let means = [0, 1].map(|i| state.contacts.get(i).map_or(0.0, |contact| contact.multiplier_n));
     let over = |change: f64, whole: f64| if change == 0.0 { 0.0 } else { change / whole.abs() };
@@ -173,19 +131,19 @@ fn radial(state: &Equilibrium, response: &[Complex<f64>; 4]) -> f64 {
 /// of a corner kept: the four coordinates and both multipliers. `None` at an undamped resonance.
 ///
 /// `(K + i frequency C - frequency^2 M) w + sum Lambda f = load` and `g . w = 0` for both rows.
-fn forced(kept: &Kept, load: [Complex<f64>; 2], frequency: f64) -> Option<[Complex<f64>; 6]> {
-    let [mass, damping, stiffness] = kept.frame.matrices(&kept.rows, &[]);
+fn forced(held: &Held, load: [Complex<f64>; 2], frequency: f64) -> Option<[Complex<f64>; 6]> {
+    let [mass, damping, stiffness] = held.frame.matrices(&held.rows, &[]);
     // Blade coordinates are lengths at the tip of a lever that makes both stiffnesses equal.
-    let lever = (kept.frame.blades.stiffness / kept.frame.casing.stiffness).sqrt();
+    let lever = (held.frame.blades.stiffness / held.frame.casing.stiffness).sqrt();
     let unit = [1.0, 1.0, lever, lever].map(f64::recip);
-    let scale = kept.frame.casing.stiffness;
+    let scale = held.frame.casing.stiffness;
     let mut system = Matrix6::zeros();
     for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
         let still = stiffness[(i, j)] - frequency * frequency * mass[(i, j)];
         let entry = Complex::new(still, frequency * damping[(i, j)]);
         system[(i, j)] = entry * (unit[i] * unit[j] / scale);
     }
-    for (place, row) in (4..).zip(&kept.rows) {
+    for (place, row) in (4..).zip(&held.rows) {
         for i in 0..4 {
             system[(i, place)] = Complex::from(row.force[i] * unit[i]);
             system[(place, i)] = Complex::from(row.gap[i] * unit[i]);

@@ -4,10 +4,10 @@
 //! [`locked_motion`] computes it for a list of speeds, with its character and stability.
 //! [`lock_loads`] gives contact forces, torque, power and blade angles.
 
-use super::equations::{Equations, Scales, Unknowns, Wave};
-use super::stability::Kept;
-use super::{Character, Corner, Form, HarmonicError, error, lining};
+use super::held::Held;
+use super::{Character, Corner, Form, error, lining};
 use crate::model::Machine;
+use crate::scene::SceneError;
 
 /// Locked motion at one rotor speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ impl Locked {
         corner: Corner,
         form: Form,
         damped: bool,
-    ) -> Result<Self, HarmonicError> {
+    ) -> Result<Self, SceneError> {
         let corner = match machine.has_unequal_tips() {
             true => corner,
             false => Corner::after(&machine.polygon, corner.a)?,
@@ -97,7 +97,7 @@ impl Locked {
         error::refuse_preload(&machine.at(0.0))?;
         if form != Form::Modal && machine.has_unequal_tips() {
             let allowed = "modal with unequal tips";
-            return Err(HarmonicError::refused("form", form, allowed));
+            return Err(SceneError::refused("form", form, allowed));
         }
         if form != Form::Modal {
             let allowed = format!("0 with the form {form}; only the form modal includes it");
@@ -117,106 +117,64 @@ impl Locked {
         self.corner
     }
 
-    /// Returns the locked motion at one speed \[rad/s\].
-    ///
-    /// # Errors
-    /// The speed is not finite, or there is no locked motion.
-    pub fn at(&self, speed: f64) -> Result<LockedPoint, HarmonicError> {
-        error::refuse_endless(&[speed])?;
-        let machine = self.machine.at(speed);
-        let Some((equations, unknowns)) = self.solved(&machine, speed) else {
-            return Err(HarmonicError::NotFound {
-                speed,
-                softness: Scales::new(&machine).softness,
-            });
-        };
-        Ok(self.point(&machine, speed, &equations, &unknowns))
-    }
-
-    /// Returns the equations of a machine at its speed and their solution; `None` if there is none.
-    fn solved(&self, machine: &Machine, speed: f64) -> Option<(Equations, Unknowns)> {
-        if machine.clearance() <= 0.0 {
-            return None;
-        }
-        let wave = Wave::at(machine, speed, self.damped);
-        let equations = Equations::new(machine, self.corner, self.form, wave, speed);
-        let unknowns = equations.locked()?;
-        Some((equations, unknowns))
-    }
-
-    /// Returns the motion about the lock at a speed \[rad/s\] if the lock is admissible as in
-    /// [`Self::at`]; nothing else is computed.
-    pub(super) fn admissible(&self, speed: f64) -> Option<Kept> {
+    /// Returns the locked motion at one speed \[rad/s\]; `None` if there is none: the branch of soft
+    /// blades has folded back, or the blades have grown into the casing.
+    #[must_use]
+    pub fn at(&self, speed: f64) -> Option<LockedPoint> {
         let machine = &*self.machine.at(speed);
-        let (equations, unknowns) = self.solved(machine, speed)?;
-        let [_, _, push_a, push_b, ..] = unknowns;
-        let pushes = push_a >= 0.0 && push_b >= 0.0;
-        let (configuration, sides) = (equations.configuration(&unknowns), self.corner.sides());
-        let open = || configuration.smallest_gap(&machine.polygon, &sides) >= 0.0;
-        let loads = [(sides[0], -push_a), (sides[1], -push_b)];
-        (pushes && open()).then(|| configuration.kept(machine, speed, &loads))
+        let held = Held::in_corner(machine, speed, self.corner, self.form)?;
+        let smallest_gap_m = held.smallest_gap(machine);
+        let held_by_pulls = machine.contact_can_pull() && held.closes();
+        let mut growth = None;
+        let character = Character::of(held.pushes(), held_by_pulls, smallest_gap_m, || {
+            growth = held.growth();
+            growth.is_some()
+        });
+        let LockLoads { pushes_n: [a, b], alpha_rad, amplitude_m, torque_nm, power_w } =
+            LockLoads::of(machine, speed, &held)?;
+        let (x, y) = (held.at.x, held.at.y);
+        Some(LockedPoint {
+            speed_rad_s: speed,
+            multipliers_n: [-a, -b],
+            alpha_rad,
+            u_cc_m: x,
+            u_cs_m: -y,
+            u_sc_m: y,
+            u_ss_m: x,
+            amplitude_m,
+            smallest_gap_m,
+            torque_nm,
+            power_w,
+            character,
+            admissible: character.is_admissible(),
+            stable: character == Character::Stable,
+            growth_1_s: growth.filter(|growth| growth.is_finite()),
+            residual: held.residual,
+        })
+    }
+
+    /// Returns the lock at a speed \[rad/s\] if it is admissible as in [`Self::at`].
+    pub(super) fn admissible(&self, speed: f64) -> Option<Held> {
+        let machine = &*self.machine.at(speed);
+        let held = Held::in_corner(machine, speed, self.corner, self.form)?;
+        (held.pushes() && held.smallest_gap(machine) >= 0.0).then_some(held)
     }
 
     /// Computes the locked motion at each speed \[rad/s\].
     ///
     /// # Errors
     /// A speed is not finite.
-    pub fn sweep(&self, speeds: &[f64]) -> Result<Sweep, HarmonicError> {
+    pub fn sweep(&self, speeds: &[f64]) -> Result<Sweep, SceneError> {
+        error::refuse_endless(speeds)?;
         let mut points = Vec::with_capacity(speeds.len());
         let mut missing = Vec::new();
         for &speed in speeds {
             match self.at(speed) {
-                Ok(point) => points.push(point),
-                Err(HarmonicError::NotFound { .. }) => missing.push(speed),
-                Err(error) => return Err(error),
+                Some(point) => points.push(point),
+                None => missing.push(speed),
             }
         }
         Ok(Sweep { corner: self.corner, form: self.form, damped: self.damped, points, missing })
-    }
-
-    /// Converts a solution of the equations to units, with its stability.
-    fn point(
-        &self,
-        machine: &Machine,
-        speed: f64,
-        equations: &Equations,
-        unknowns: &Unknowns,
-    ) -> LockedPoint {
-        let (polygon, sides) = (&machine.polygon, self.corner.sides());
-        let [x, y, push_a, push_b, alpha_a, alpha_b] = *unknowns;
-        let configuration = equations.configuration(unknowns);
-        let smallest_gap = configuration.smallest_gap(polygon, &sides);
-        let loads = [(sides[0], -push_a), (sides[1], -push_b)];
-        let motion = configuration.kept(machine, speed, &loads);
-        let mut growth = None;
-        let pushes = push_a >= 0.0 && push_b >= 0.0;
-        let held_by_pulls = machine.contact_can_pull() && motion.closes();
-        let character = Character::of(pushes, held_by_pulls, smallest_gap, || {
-            growth = motion.growth();
-            growth.is_some()
-        });
-        let Scales { length, force, .. } = Scales::new(machine);
-        let residual = equations.residual(unknowns).map(f64::abs);
-        let torque = machine.nodal_diameters * force * length * equations.torque(unknowns);
-        let [x, y] = [x * length, y * length];
-        LockedPoint {
-            speed_rad_s: speed,
-            multipliers_n: [-push_a * force, -push_b * force],
-            alpha_rad: [alpha_a * equations.angle, alpha_b * equations.angle],
-            u_cc_m: x,
-            u_cs_m: -y,
-            u_sc_m: y,
-            u_ss_m: x,
-            amplitude_m: x.hypot(y),
-            smallest_gap_m: length * smallest_gap,
-            torque_nm: torque,
-            power_w: torque * speed,
-            character,
-            admissible: character.is_admissible(),
-            stable: character == Character::Stable,
-            growth_1_s: growth.filter(|growth| growth.is_finite()),
-            residual: residual.into_iter().fold(0.0, f64::max),
-        }
     }
 }
 
@@ -253,7 +211,7 @@ pub fn locked_motion(
     damped: bool,
     blades: Option<[u32; 2]>,
     speeds: &[f64],
-) -> Result<Sweep, HarmonicError> {
+) -> Result<Sweep, SceneError> {
     let corner = Corner::of(machine, speeds.last().copied().unwrap_or(1.0), blades)?;
     Locked::new(machine, corner, form, damped)?.sweep(speeds)
 }
@@ -288,21 +246,24 @@ pub fn lock_loads(machine: &Machine, speed: f64) -> Option<LockLoads> {
         return lining::lock_loads(machine, speed);
     }
     let corner = Corner::of(machine, speed, None).ok()?;
-    let wave = Wave::at(machine, speed, true);
-    let equations = Equations::new(machine, corner, Form::Modal, wave, speed);
-    let unknowns = equations.locked()?;
-    let [x, y, push_a, push_b, alpha_a, alpha_b] = unknowns;
-    let Scales { length, force, .. } = Scales::new(machine);
-    let torque = equations.torque(&unknowns) * force * length * machine.nodal_diameters;
-    let amplitude = (x * x + y * y).sqrt() * length;
-    let angles = [alpha_a * equations.angle, alpha_b * equations.angle];
-    Some(LockLoads {
-        pushes_n: [push_a * force, push_b * force],
-        alpha_rad: angles,
-        amplitude_m: amplitude,
-        torque_nm: torque,
-        power_w: torque * speed,
-    })
+    LockLoads::of(machine, speed, &Held::in_corner(machine, speed, corner, Form::Modal)?)
+}
+
+impl LockLoads {
+    /// Returns the loads of a state in a corner at a speed \[rad/s\].
+    pub(super) fn of(machine: &Machine, speed: f64, held: &Held) -> Option<Self> {
+        let (&[a, b], &[of_a, of_b]) = (held.sides.as_slice(), held.multipliers.as_slice()) else {
+            return None;
+        };
+        let torque_nm = held.torque();
+        Some(Self {
+            pushes_n: [-of_a, -of_b],
+            alpha_rad: [a, b].map(|side| held.alpha(machine.polygon.direction(side))),
+            amplitude_m: held.amplitude(),
+            torque_nm,
+            power_w: torque_nm * speed,
+        })
+    }
 }
 
 #[cfg(test)]

@@ -5,9 +5,9 @@
 //! of the `model::ContactPolygon`. One harmonic is therefore exact, and stability follows from
 //! eigenvalues. There are no time steps and no initial conditions.
 //!
-//! - The lock, Eq. (27) in three forms: `corner`, `equations`, `locked` ([`locked_motion`],
-//!   [`lock_loads`]); for very soft blades `corner_angle`.
-//! - All equilibria, their stability and thresholds: `equilibria`, `stability`.
+//! - Equilibria with contact and the motion about them, the lock in the three forms of Eq. (27):
+//!   `held`; for a list of speeds `corner`, `locked` ([`locked_motion`], [`lock_loads`]).
+//! - All equilibria and their thresholds: `equilibria`.
 //! - Slip as a map from corner to corner: `slip`.
 //! - Coincidences and engine-order excitation: `coincidence`, `excitation`.
 //! - Ranges of speed with a lock or with flutter (section 10): `windows`; with whirl or with growth
@@ -18,30 +18,27 @@
 
 mod coincidence;
 mod corner;
-mod corner_angle;
-mod equations;
 mod equilibria;
 mod error;
 mod excitation;
+mod held;
 mod lining;
 mod locked;
 mod round_whirl;
 mod roundness;
 mod slip;
 mod speed_ranges;
-mod stability;
 mod windows;
 
 pub use coincidence::{
     Campbell, Coincidence, CoincidencePoint, Line, coincidence, shifted_coincidence,
 };
 pub use corner::{Corner, PAPER_PAIR};
-pub use equations::Form;
 pub use equilibria::{
     Branches, Character, Equilibrium, GroupContact, Kind, Threshold, equilibria, equilibrium,
 };
-pub use error::HarmonicError;
-pub use excitation::{ExcitedLock, ExcitedLocks, drives};
+pub use excitation::{ExcitedLock, drives, excited_locks};
+pub use held::Form;
 pub use lining::{
     Cycle, Forced, GroupPush, HopfPoint, LeastStiffness, Lining, LiningState, Rest, RestRoot,
     growth_threshold, least_lock_stiffness,

@@ -13,7 +13,7 @@
 use strum::IntoStaticStr;
 
 use super::windows::{FURTHEST, joined_grow, windows};
-use crate::model::{Frame, LockWindow, Machine, Row, Structure};
+use crate::model::{Frame, LockWindow, Machine, Row, Structure, growth_about_wave};
 use crate::numeric::real_roots::{product, real_roots};
 
 /// Imaginary part of the joint compliance at a root, relative to the real part, up to which it counts
@@ -166,10 +166,7 @@ impl RoundWhirl {
         let turning = frame.turning(s);
         // The magnitude |w| is held, and the force keeps pointing against w.
         let [radial, tangential] = [(1.0, 0.0), (0.0, 1.0)].map(|way| Row::fixed(&turning, way));
-        let mut rates = turning.motion(&[radial], &[(tangential, stiffness)]).eigenvalues()?;
-        // The wave shifted in time is also a solution, so one eigenvalue is zero.
-        rates.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-        let growth = rates.iter().skip(1).map(|rate| rate.re).fold(f64::NEG_INFINITY, f64::max);
+        let growth = growth_about_wave(&turning.motion(&[radial], &[(tangential, stiffness)]))?;
         let [casing, blades] = [(&frame.casing, omega), (&frame.blades, s)]
             .map(|(of, at)| of.dynamic_stiffness(at).norm());
         Some(Self {

@@ -8,7 +8,7 @@
 use nalgebra::Complex;
 
 use super::Corner;
-use crate::model::Machine;
+use crate::model::{Frame, Machine};
 
 /// Roundness of usual casings, relative to the clearance: one per cent. A lock that needs a rounder
 /// casing is reported.
@@ -59,10 +59,7 @@ pub fn roundness(machine: &Machine, speed: f64, lobes: u32) -> Option<f64> {
     // z_1 and conj(z_2) for e = 1: z_1 conj(d) + conj(z_2) d = -exp(i m Phi) on both sides.
     let first = (at_b * a - at_a * b) * over;
     let second = (at_a * b.conj() - at_b * a.conj()) * over;
-    let stiffness = |omega: f64| {
-        let real = machine.casing_stiffness - omega * omega * machine.casing_mass;
-        Complex::new(real, omega * machine.casing_damping)
-    };
+    let stiffness = |omega: f64| Frame::at(machine, speed).casing.dynamic_stiffness(omega);
     let (nu, turn) = (machine.nu(speed), speed * f64::from(lobes));
     let force = stiffness(nu + turn) * first * 2.0;
     let back = (stiffness(nu - turn) * second.conj()).conj() * 2.0;

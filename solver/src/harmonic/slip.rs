@@ -15,9 +15,10 @@
 use strum::{Display, IntoStaticStr};
 
 use super::equilibria::changes;
-use super::{HarmonicError, error};
+use super::error;
 use crate::model::Machine;
 use crate::numeric::search::bisected;
+use crate::scene::SceneError;
 
 /// Reason why there is no lasting slip at a speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Display, IntoStaticStr)]
@@ -93,7 +94,7 @@ impl SlipPoint {
 /// # Errors
 /// The polygon has no corners, the tips act on the casing otherwise than in the paper, there is no
 /// clearance, or a speed is not finite.
-pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, HarmonicError> {
+pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, SceneError> {
     error::refuse_tips_on_casing(machine, "slip")?;
     error::refuse_preload(&machine.at(0.0))?;
     error::refuse_no_corner(&machine.polygon)?;
@@ -115,21 +116,11 @@ pub struct SlipLimit {
 ///
 /// # Errors
 /// As [`slip_over`].
-pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, HarmonicError> {
+pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, SceneError> {
     slip_over(machine, speeds)?;
-    let mut sorted = speeds.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let exists = |speed| Ok(point(machine, speed).exists());
-    let mut limits = Vec::new();
-    for pair in sorted.windows(2) {
-        if let [low, high] = *pair {
-            let found = changes(low, high, &exists)?;
-            limits.extend(
-                found.iter().map(|&(speed_rad_s, _, appears)| SlipLimit { speed_rad_s, appears }),
-            );
-        }
-    }
-    Ok(limits)
+    let found = changes(speeds, &|speed| Ok(point(machine, speed).exists()))?;
+    let limit = |(speed_rad_s, _, appears)| SlipLimit { speed_rad_s, appears };
+    Ok(found.into_iter().map(limit).collect())
 }
 
 /// Returns the periodic arc at a speed, if contact can hold it all along.
@@ -152,90 +143,43 @@ fn point(machine: &Machine, speed: f64) -> SlipPoint {
     SlipPoint { speed_rad_s: speed, outcome }
 }
 
-/// Units of speed \[m/s\] and force \[N\] in the dimensionless flow.
-struct Units {
-    speed: f64,
-    force: f64,
-}
-
-impl Units {
-    fn new(machine: &Machine) -> Self {
-        let length = machine.clearance();
-        Self { speed: machine.omega_c * length, force: machine.casing_stiffness * length }
-    }
-}
-
-/// Returns the factor by which phase-space areas shrink along an arc.
-fn contraction(slide: &SaddleFlow, arc: &Arc) -> f64 {
-    (-2.0 * slide.zeta * arc.time).exp()
-}
-
+/// Converts an arc to units, with its mean torque and powers, in which a side of the length `2 end`
+/// takes the time `T`. The damping dissipates `2 zeta int |u'|^2`, with `|u'|^2 = (y' - f)^2 + f^2 y^2`.
+/// The equation of motion, integrated over the arc alone, times `y'` and times `y`, gives
+///
+/// - `(1 - f^2) int y = 2 zeta f T - [y'] - 4 zeta end`
+/// - `2 zeta int y'^2 = 4 zeta f end - [y'^2]/2`
+/// - `(1 - f^2) int y^2 = 2 zeta f int y + int y'^2 - [y y']`
+///
+/// because `y` goes from `-end` to `end`. The rotor supplies what damping and corners take.
 fn orbit(machine: &Machine, speed: f64, slide: &SaddleFlow, arc: &Arc) -> SlipOrbit {
-    let units = Units::new(machine);
+    let &SaddleFlow { zeta, ratio: f, end, kept, struck, .. } = slide;
     let [after, before] = slide.end_speeds(arc);
-    let impulse = before * slide.struck;
-    let means = Means::new(slide, arc);
-    // Torque = sum Lambda A with Lambda = -N, A = n_d y; the impulse acts at y = -end.
-    let moment_arm = -means.push_lever + impulse * slide.end / arc.time;
-    let unit = units.force * machine.clearance();
-    let torque = machine.nodal_diameters * unit * moment_arm * speed.signum();
-    let power = unit * machine.omega_c;
+    let pull = (1.0 - f) * (1.0 + f);
+    let way = (2.0 * zeta * (f * arc.time - 2.0 * end) - (before - after)) / pull;
+    let rates = 2.0 * f * end - (before - after) * (before + after) / (4.0 * zeta);
+    let squares = (2.0 * zeta * f * way + rates - end * (before + after)) / pull;
+    let against = rates - 4.0 * f * end + f * f * (arc.time + squares);
+    let (length, impulse) = (machine.clearance(), before * struck);
+    let force = machine.casing_stiffness * length;
+    let power = force * length * machine.omega_c / arc.time;
+    let (damper_power_w, corner_power_w) =
+        (power * 2.0 * zeta * against, power * 0.5 * impulse * impulse);
+    let power_w = damper_power_w + corner_power_w;
     let drift = 2.0 * machine.polygon.delta * machine.omega_c / arc.time / machine.nodal_diameters;
     SlipOrbit {
         wave_speed_rad_s: speed - speed.signum() * drift,
         period_s: arc.time / machine.omega_c,
-        speed_after_corner_m_s: after * units.speed,
-        speed_before_corner_m_s: before * units.speed,
-        slope: slide.kept * slide.kept * contraction(slide, arc),
-        least_push_n: slide.least_push(arc) * units.force,
-        corner_impulse_ns: impulse * units.force / machine.omega_c,
-        torque_nm: torque,
-        power_w: torque * speed,
-        damper_power_w: power * 2.0 * slide.zeta * means.rate_square,
-        corner_power_w: power * 0.5 * impulse * impulse / arc.time,
+        speed_after_corner_m_s: after * machine.omega_c * length,
+        speed_before_corner_m_s: before * machine.omega_c * length,
+        slope: kept * kept * (-2.0 * zeta * arc.time).exp(),
+        least_push_n: slide.least_push(arc) * force,
+        corner_impulse_ns: impulse * force / machine.omega_c,
+        torque_nm: power_w / speed,
+        power_w,
+        damper_power_w,
+        corner_power_w,
     }
-}
-
-/// Time averages over an arc, from integrals of products of exponentials.
-struct Means {
-    /// Average of `N y`.
-    push_lever: f64,
-    /// Average of `|u'|^2 = (y' - f)^2 + f^2 y^2`.
-    rate_square: f64,
-}
-
-impl Means {
-    fn new(slide: &SaddleFlow, arc: &Arc) -> Self {
-        let [up, down] = slide.roots;
-        let rates = [0.0, up, down];
-        let y = [slide.saddle, arc.grow, arc.decay];
-        let speed = [0.0, arc.grow * up, arc.decay * down];
-        let f = slide.ratio;
-        let constant = [1.0, 0.0, 0.0];
-        let combine =
-            |a: f64, b: f64, c: f64| [0, 1, 2].map(|i| a * constant[i] + b * speed[i] + c * y[i]);
-        let push = combine((f - 1.0) * (f + 1.0), -2.0 * f, -2.0 * slide.zeta * f);
-        let against = combine(-f, 1.0, 0.0);
-        let mean = |p: &[f64; 3], q: &[f64; 3]| {
-            let mut sum = 0.0;
-            for i in 0..3 {
-                for j in 0..3 {
-                    sum += p[i] * q[j] * mean_exponential(rates[i] + rates[j], arc.time);
-                }
-            }
-            sum
-        };
-        Self {
-            push_lever: mean(&push, &y),
-            rate_square: mean(&against, &against) + f * f * mean(&y, &y),
-        }
-    }
-}
-
-/// Returns the mean of `e^(rate t)` over `[0, time]`.
-fn mean_exponential(rate: f64, time: f64) -> f64 {
-    let x = rate * time;
-    if x == 0.0 { 1.0 } else { x.exp_m1() / x }
 }
 
 /// Motion along one side above the critical speed, dimensionless.

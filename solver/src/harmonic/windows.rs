@@ -12,7 +12,7 @@
 //! by it. Without slope, and if the blades hardly bend up to the last speed, there is no scan: the
 //! closed form is returned.
 
-use super::stability::Kept;
+use super::held::Held;
 use super::{Corner, Form, Locked, LockedPoint};
 use crate::model::{Frame, LockWindow, Machine, TipCorner};
 use crate::numeric::search::{geometric, spans};
@@ -74,7 +74,7 @@ impl Locks {
     }
 
     /// Returns the motions about the admissible locks at a speed \[rad/s\], stable or not.
-    fn balanced(&self, speed: f64) -> impl Iterator<Item = Kept> {
+    fn balanced(&self, speed: f64) -> impl Iterator<Item = Held> {
         let here = self.corners.iter().filter(move |(_, windows)| match windows {
             Some(windows) => windows.iter().any(|window| window.has(speed.abs())),
             None => true,
@@ -94,7 +94,7 @@ impl Locks {
             angles[0].max(angles[1]) < least
         };
         let mut corners = self.corners.iter().take(1);
-        furthest.is_some_and(|speed| corners.all(|(locked, _)| locked.at(speed).is_ok_and(turns)))
+        furthest.is_some_and(|speed| corners.all(|(locked, _)| locked.at(speed).is_some_and(turns)))
     }
 
     /// Returns whether a lock holds at a rotor speed \[rad/s\].
@@ -107,7 +107,7 @@ impl Locks {
     /// or if none is admissible.
     #[must_use]
     pub fn growth(&self, speed: f64) -> Option<f64> {
-        let growth = |motion: Kept| motion.growth().filter(|growth| growth.is_finite());
+        let growth = |motion: Held| motion.growth().filter(|growth| growth.is_finite());
         let each: Option<Vec<f64>> = self.balanced(speed).map(growth).collect();
         each?.into_iter().reduce(f64::min)
     }

@@ -16,10 +16,11 @@
 //!
 //! Read [`Frame`], then [`Row`], then [`Frame::motion`].
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix2, Matrix4, Vector2, Vector4};
+use nalgebra::{Complex, DMatrix, Matrix2, Matrix4, Vector2, Vector4};
 
 use super::Machine;
 use crate::numeric::eigen::{complex_eigenvalues, eigenvalues};
+use crate::numeric::rounding::AS_ZERO;
 
 /// Mass, damping and stiffness of one structure, and the rotational rate of its own frame relative to
 /// the frame of the motion.
@@ -127,12 +128,19 @@ impl Frame {
     /// relative displacement of casing and tips for a wave of contact forces \[m/N\].
     #[must_use]
     pub fn compliance(&self) -> Complex<f64> {
-        let casing =
-            Complex::new(1.0, self.friction) / self.casing.dynamic_stiffness(self.casing.turn);
+        self.impedance().inv()
+    }
+
+    /// Returns `1/B` at rest in this frame \[N/m\], which is finite at a resonance of the casing.
+    #[must_use]
+    pub fn impedance(&self) -> Complex<f64> {
+        let casing = self.casing.dynamic_stiffness(self.casing.turn);
+        let turned = Complex::new(1.0, self.friction);
         if self.coupling() == 0.0 {
-            return casing;
+            return casing / turned;
         }
-        casing + self.blades.dynamic_stiffness(self.blades.turn).inv() * self.coupling()
+        let blades = self.blades.dynamic_stiffness(self.blades.turn);
+        casing * blades / (blades * turned + casing * self.coupling())
     }
 
     /// Returns the eigenvalues `l` of waves in which casing and blades stay in contact, `B = 0`: the
@@ -220,39 +228,40 @@ impl Frame {
     #[must_use]
     pub fn motion(&self, held: &[Row], springs: &[(Row, f64)]) -> Motion {
         let [mass, damping, stiffness] = self.matrices(held, springs);
-        let n = self.coordinates;
         // In coordinates of unit mass.
-        let weights: Vec<f64> = (0..n).map(|i| mass[(i, i)].sqrt()).collect();
-        let vector = |of: &Vector4<f64>| DVector::from_fn(n, |i, _| of[i] / weights[i]);
-        let free = across(held.iter().map(|row| vector(&row.gap)), n);
-        let along = across(held.iter().map(|row| vector(&row.force)), n);
-        let project = |matrix: &Matrix4<f64>| {
-            let scaled = DMatrix::from_fn(n, n, |i, j| matrix[(i, j)] / weights[i] / weights[j]);
-            along.tr_mul(&(scaled * &free))
+        let weights = mass.diagonal().map(f64::sqrt);
+        let vector = |of: &Vector4<f64>| of.component_div(&weights);
+        let free = across(held.iter().map(|row| vector(&row.gap)));
+        let along = across(held.iter().map(|row| vector(&row.force)));
+        let scale = Matrix4::from_diagonal(&weights.map(f64::recip));
+        let (first, count) = (held.len(), self.coordinates.saturating_sub(held.len()));
+        let project = |matrix: Matrix4<f64>| {
+            let projected = along.tr_mul(&(matrix * free));
+            projected.view((first, first), (count, count)).into_owned()
         };
         Motion {
-            mass: along.tr_mul(&free),
-            damping: project(&damping),
-            stiffness: project(&stiffness),
+            mass: project(Matrix4::identity()),
+            damping: project(scale * damping * scale),
+            stiffness: project(scale * stiffness * scale),
         }
     }
 }
 
-/// Returns an orthonormal basis of the vectors orthogonal to all `rows`, one in each column.
-fn across(rows: impl Iterator<Item = DVector<f64>>, size: usize) -> DMatrix<f64> {
-    let mut basis = DMatrix::identity(size, size);
-    for row in rows {
+/// Returns an orthonormal basis whose columns, from the number of `rows` on, are orthogonal to all of
+/// them.
+fn across(rows: impl Iterator<Item = Vector4<f64>>) -> Matrix4<f64> {
+    let mut basis = Matrix4::identity();
+    for (k, row) in rows.enumerate().take(4) {
         // Householder reflection of the remaining vectors, after which only the first one has a
         // component along the row.
         let mut seen = basis.tr_mul(&row);
-        let length = seen.norm();
-        seen[0] += length.copysign(seen[0]);
+        seen.rows_mut(0, k).fill(0.0);
+        seen[k] += seen.norm().copysign(seen[k]);
         let square = seen.norm_squared();
         if square > 0.0 {
-            let shares = (&basis * &seen) * (2.0 / square);
+            let shares = basis * seen * (2.0 / square);
             basis -= shares * seen.transpose();
         }
-        basis = basis.remove_column(0);
     }
     basis
 }
@@ -260,6 +269,8 @@ fn across(rows: impl Iterator<Item = DVector<f64>>, size: usize) -> DMatrix<f64>
 /// A contact row: the side with the phase `psi`, whose blades have turned by `alpha`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
+    /// Gap less the apothem, `Re[z exp(-i b)] - kappa l_b alpha` \[m\].
+    pub opening: f64,
     /// Gradient of the gap.
     pub gap: Vector4<f64>,
     /// Force per unit of the multiplier.
@@ -269,43 +280,60 @@ pub struct Row {
 }
 
 impl Row {
-    /// Creates the row of a side with the direction `(cos psi, sin psi)`, at the casing place
-    /// `(x, y)` \[m\], a blade angle of the side \[rad\] and a multiplier (negative is a push) \[N\].
+    /// Creates the row of a side with the direction `(cos psi, sin psi)` in a state, with a multiplier
+    /// (negative is a push) \[N\].
     ///
     /// With `b = psi + n_d alpha` the gap is `h + Re[z exp(-i b)] - kappa l_b alpha`, and the force
     /// `(1 + i mu_c) exp(i b)` on the casing and `n_d Im[z exp(-i b)] - (kappa + mu) l_b` on the
     /// blade.
     #[must_use]
-    pub fn new(
+    pub fn new(frame: &Frame, direction: (f64, f64), at: &Vector4<f64>, multiplier: f64) -> Self {
+        Self::bent(frame, direction, direction, false, at, multiplier)
+    }
+
+    /// As [`new`](Self::new), with blade coordinates that have another `shape` on this side. With
+    /// `first_order` the factor `exp(i b)` is expanded to first order in `alpha`, Eq. (26).
+    pub(crate) fn bent(
         frame: &Frame,
         (cos, sin): (f64, f64),
-        (x, y): (f64, f64),
-        alpha: f64,
+        shape: (f64, f64),
+        first_order: bool,
+        at: &Vector4<f64>,
         multiplier: f64,
     ) -> Self {
-        let n = frame.diameters;
-        let (sin_turn, cos_turn) = (n * alpha).sin_cos();
+        let [x, y, blade_c, blade_s]: [f64; 4] = (*at).into();
+        let (n, alpha) = (frame.diameters, blade_c * shape.0 + blade_s * shape.1);
+        let (sin_turn, cos_turn) =
+            if first_order { (n * alpha, 1.0) } else { (n * alpha).sin_cos() };
         let (c, s) = (cos * cos_turn - sin * sin_turn, sin * cos_turn + cos * sin_turn);
-        let (along, arm) = (x * c + y * s, n * (y * c - x * s));
-        let push = [c - frame.friction * s, s + frame.friction * c];
-        let row = |[a, b]: [f64; 2], blade: f64| Vector4::new(a, b, blade * cos, blade * sin);
-        let by_blade = row([-n * push[1], n * push[0]], -n * n * along);
+        // Change of the direction by a turn.
+        let (c_turned, s_turned) = if first_order { (-sin, cos) } else { (-s, c) };
+        let (along, across) = (x * c + y * s, y * c - x * s);
+        let push = |c: f64, s: f64| [c - frame.friction * s, s + frame.friction * c];
+        let row =
+            |[a, b]: [f64; 2], blade: f64| Vector4::new(a, b, blade * shape.0, blade * shape.1);
+        let by_blade = row(push(n * c_turned, n * s_turned), n * n * (y * c_turned - x * s_turned));
         let by_casing = [-n * s, n * c];
         let mut turned = Matrix4::zeros();
-        for (i, shape) in [(2, cos), (3, sin)] {
+        for (i, shape) in [(2, shape.0), (3, shape.1)] {
             turned.set_column(i, &(by_blade * (multiplier * shape)));
             for (j, part) in by_casing.into_iter().enumerate() {
                 turned[(i, j)] = multiplier * part * shape;
             }
         }
-        Self { gap: row([c, s], arm - frame.slope), force: row(push, arm - frame.lever), turned }
+        Self {
+            opening: along - frame.slope * alpha,
+            gap: row([c, s], n * (x * c_turned + y * s_turned) - frame.slope),
+            force: row(push(c, s), n * across - frame.lever),
+            turned,
+        }
     }
 
     /// Creates the row of a side whose direction does not depend on the blade angle: its gap changes
     /// by `Re[w exp(-i psi)]`, with `w = z - kappa l_b a`.
     #[must_use]
     pub fn fixed(frame: &Frame, direction: (f64, f64)) -> Self {
-        Self::new(frame, direction, (0.0, 0.0), 0.0, 0.0)
+        Self::new(frame, direction, &Vector4::zeros(), 0.0)
     }
 }
 
@@ -318,6 +346,20 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// Returns whether the energy `(q'^T q' + q^T K q)/2` shows that no motion grows faster than
+    /// `rate` \[1/s\]: damping takes energy, and the skew part `N` of the stiffness adds at most
+    /// `|N| |q| |q'|`. Needs unit masses, which contact without friction leaves.
+    #[must_use]
+    pub fn is_bounded(&self, rate: f64) -> bool {
+        let unit = DMatrix::identity(self.mass.nrows(), self.mass.ncols());
+        let even = |of: &DMatrix<f64>| (of + of.transpose()) * 0.5;
+        let skew = (&self.stiffness - self.stiffness.transpose()) * 0.5;
+        let softest = (skew.norm() / rate).powi(2);
+        (&self.mass - &unit).amax() <= AS_ZERO
+            && (even(&self.stiffness) - &unit * softest).cholesky().is_some()
+            && (even(&self.damping) + unit * (0.5 * rate)).cholesky().is_some()
+    }
+
     /// Returns the eigenvalues \[1/s\]; `None` if they overflow or cannot be computed, or if the mass
     /// matrix of the motions that the held rows allow is singular.
     #[must_use]
@@ -333,6 +375,15 @@ impl Motion {
             eigenvalues(state)
         })
     }
+}
+
+/// Returns the largest growth rate of motions about a wave that is a state of rest at any phase
+/// \[1/s\]: its shift in time, which has the eigenvalue 0, is left out. `None` as in
+/// [`Motion::eigenvalues`].
+pub(crate) fn growth_about_wave(motion: &Motion) -> Option<f64> {
+    let mut rates = motion.eigenvalues()?;
+    rates.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+    Some(rates.iter().skip(1).map(|rate| rate.re).fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// Returns the eigenvalues that `of` computes for a state matrix with rates in units of `fastest`

@@ -2,21 +2,17 @@
 //! (docs/theory.md, sections 4 and 10).
 //!
 //! Two neighbouring phase groups carry the contact force `q = -(g0/cos delta)/H`, where `H = B(nu)`
-//! is the joint compliance of casing and blades. Both groups push where `|arg(-1/H)| <= delta`.
-//! With `K = k_c - nu^2 m_c`, `D = d_c nu`, `c = c2/k_a` and `mu_c = mu tau`, `1/H` is a positive
-//! factor times `K + c (K^2 + D^2) + mu_c D + i (D - mu_c K)`.
+//! is the joint compliance of casing and blades (`frame`). Both groups push where
+//! `|arg(-1/H)| <= delta`.
 //!
 //! On a lining with the group stiffness `k` (no smoothing) both push where
 //! `-tan(delta) Re H - |Im H| >= 1/(k sin 2 delta)`, which adds the term
-//! `(K^2 + D^2)/(k sin 2 delta)` to the condition on `1/H`.
+//! `|1/H|^2/(k sin 2 delta)` to the condition on `1/H`. If the blades grow with speed, every window
+//! ends where the clearance closes.
 //!
-//! If the blades stiffen with speed, `c` becomes `c/(1 + b x^2)`. If they grow with speed, every
-//! window ends where the clearance closes.
-//!
-//! Read [`Machine::lock_windows`] first, then `windows` (the general case) and `Balance` (its
-//! condition).
+//! Read [`Machine::lock_windows`] first, then `windows`, the general case.
 
-use super::Machine;
+use super::{Frame, Machine};
 use crate::numeric::search::{geometric, zeros};
 
 /// Range of rotor speeds with a lock, flutter, whirl or growth, as the function that returns it
@@ -173,39 +169,36 @@ impl Machine {
         if !self.polygon.has_corners() || self.has_other_diameters() {
             return Vec::new();
         }
-        // A rotor that turns backward is the mirrored machine: drag and friction both change their
-        // sign, and the sides change places.
-        let sense = if toward < 0.0 { -1.0 } else { 1.0 };
-        let balance = Balance {
-            sides: sides.map(|(slope, sign)| (slope, sense * sign)),
-            damping: self.casing_damping_ratio * 2.0,
-            friction: self.casing_friction_at(1.0),
-            coupling: self.coupling_product_at(toward) * self.casing_stiffness
-                / self.blade_stiffness_at_rest(),
-            stiffening: self.stiffening() * (critical / self.omega_bd_at_rest()).powi(2),
-            lining: self.lining.map_or(0.0, |lining| {
-                let group = lining.stiffness_n_per_m * f64::from(self.polygon.blades_per_side);
-                self.casing_stiffness / (group * (2.0 * self.polygon.delta).sin())
-            }),
+        let sense = 1_f64.copysign(toward);
+        let lining = self.lining.map_or(0.0, |lining| {
+            let group = lining.stiffness_n_per_m * f64::from(self.polygon.blades_per_side);
+            1.0 / (group * (2.0 * self.polygon.delta).sin())
+        });
+        let excess = |speed: f64| {
+            let inverse = Frame::at(self, sense * speed).impedance();
+            let of_lining = lining * inverse.norm_sqr();
+            let of = |(slope, sign): (f64, f64)| inverse.re * slope + inverse.im * sign + of_lining;
+            f64::max(of(sides[0]), of(sides[1]))
         };
-        let speed = |x: f64| x * critical;
+        // A point at every fifth, and at every half of the distance from the critical speed.
+        let beside = geometric([1e-10, 0.5], 1.5).flat_map(|apart| [1.0 - apart, 1.0 + apart]);
+        let places = geometric([1e-9, 1e9], 1.2).chain(beside).chain([1.0]);
+        let mut places: Vec<f64> = places.map(|place| critical * place).collect();
+        places.sort_by(f64::total_cmp);
+        let mut ends = vec![0.0];
+        ends.extend(zeros(&places, excess));
+        ends.push(f64::INFINITY);
         let mut windows: Vec<LockWindow> = Vec::new();
-        // Whether the interval below the current end has a lock.
-        let mut inside = false;
-        let mut below = None;
-        let ends = balance.ends();
-        for place in 0..=ends.len() {
-            let end = ends.get(place).copied();
-            let from = below.unwrap_or(0.0);
-            let middle = end.map_or(2.0 * from + 1.0, |x| 0.5 * (from + x));
-            let holds = balance.holds(middle);
-            if holds && !inside {
-                windows.push(LockWindow { from: below.map_or(0.0, speed), to: None });
+        for pair in ends.windows(2) {
+            let (from, to) = (pair[0], Some(pair[1]).filter(|to| to.is_finite()));
+            let middle = to.map_or(2.0 * from + critical, |to| 0.5 * (from + to));
+            if excess(middle) > 0.0 {
+                continue;
             }
-            if let Some(window) = windows.last_mut().filter(|_| inside && !holds) {
-                window.to = below.map(speed);
+            match windows.last_mut().filter(|last| last.to == Some(from)) {
+                Some(last) => last.to = to,
+                None => windows.push(LockWindow { from, to }),
             }
-            (inside, below) = (holds, end);
         }
         windows
     }
@@ -238,16 +231,12 @@ impl Machine {
         if !here.polygon.has_corners() || here.clearance() <= 0.0 {
             return None;
         }
-        let nu = here.nu(speed);
-        let (sin, cos) = here.polygon.delta.sin_cos();
-        let mut stiff = here.casing_stiffness - nu * nu * here.casing_mass;
-        let mut drag = here.casing_damping * nu;
-        if here.casing_feels_tips() {
-            if here.has_other_diameters() {
-                return None;
-            }
-            [stiff, drag] = here.with_tips(stiff, drag, speed);
+        if here.casing_feels_tips() && here.has_other_diameters() {
+            return None;
         }
+        let (sin, cos) = here.polygon.delta.sin_cos();
+        let inverse = Frame::at(&here, speed).impedance();
+        let (stiff, drag) = (inverse.re, inverse.im);
         if here.has_unequal_tips() {
             let (corner, _) = here.lowest_corner(speed)?;
             let scale = corner.distance / corner.beta.sin();
@@ -280,64 +269,6 @@ impl Machine {
         let deviation = clearance * delta.tan() * (delta - theta).tan();
         let cut = clearance * ((2.0 * delta).cos().recip() - 1.0);
         Some(deviation).filter(|deviation| -deviation < cut)
-    }
-
-    /// Adds the effect of inclined tips and friction to `1/H`, whose real and imaginary part for the
-    /// casing alone are `stiff` and `drag` \[N/m\].
-    fn with_tips(&self, stiff: f64, drag: f64, speed: f64) -> [f64; 2] {
-        let friction = self.casing_friction_at(speed);
-        let c = self.coupling_product_at(speed) / self.blade_modal_stiffness;
-        let (real, imaginary) = (c * stiff + 1.0, c * drag + friction);
-        let size = real * real + imaginary * imaginary;
-        let along = stiff + c * (stiff * stiff + drag * drag) + friction * drag;
-        [along / size, (drag - friction * stiff) / size]
-    }
-}
-
-/// The push condition `slope Re(1/H) + sign Im(1/H) <= 0` of each side as a function of the
-/// dimensionless frequency `x = nu/omega_c`, in units of `k_c`. On a lining it has one more term,
-/// the compliance of the lining.
-struct Balance {
-    /// Slope and sign of the condition of each side.
-    sides: [(f64, f64); 2],
-    /// Twice the damping ratio of the casing, `2 zeta_c`.
-    damping: f64,
-    /// Friction on the casing mode, `mu_c`.
-    friction: f64,
-    /// `c k_c` of the blades at rest.
-    coupling: f64,
-    /// Centrifugal stiffening `b`: the blade stiffness grows by the factor `1 + b x^2`.
-    stiffening: f64,
-    /// `k_c/(k sin 2 delta)` with the stiffness `k` of the lining under one group; 0 without one.
-    lining: f64,
-}
-
-impl Balance {
-    /// Returns the left side of the condition at `x`.
-    fn at(&self, x: f64, (slope, sign): (f64, f64)) -> f64 {
-        let (stiff, drag) = ((1.0 - x) * (1.0 + x), self.damping * x);
-        let square = stiff * stiff + drag * drag;
-        let coupling = self.coupling / (1.0 + self.stiffening * x * x);
-        let along = stiff + coupling * square + self.friction * drag;
-        let across = drag - self.friction * stiff;
-        along * slope + across * sign + self.lining * square
-    }
-
-    /// Returns whether both sides push at `x`.
-    fn holds(&self, x: f64) -> bool {
-        self.sides.iter().all(|&side| self.at(x, side) <= 0.0)
-    }
-
-    /// Returns every positive `x` at which one of the two pushes vanishes, in increasing order: zeros
-    /// between points that differ by a fifth, and by half of their distance from the critical speed.
-    fn ends(&self) -> Vec<f64> {
-        let beside = geometric([1e-10, 0.5], 1.5).flat_map(|apart| [1.0 - apart, 1.0 + apart]);
-        let mut places: Vec<f64> = geometric([1e-9, 1e9], 1.2).chain(beside).chain([1.0]).collect();
-        places.sort_by(f64::total_cmp);
-        let mut ends: Vec<f64> =
-            self.sides.iter().flat_map(|&side| zeros(&places, |x| self.at(x, side))).collect();
-        ends.sort_by(f64::total_cmp);
-        ends
     }
 }
 

@@ -17,6 +17,7 @@ mod spin;
 mod tip_corner;
 mod tips;
 
+pub(crate) use frame::growth_about_wave;
 pub use frame::{Frame, Motion, Row, Structure};
 pub use lining::LiningLaw;
 pub use lock::LockWindow;

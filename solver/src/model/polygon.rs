@@ -146,10 +146,10 @@ impl ContactPolygon {
     /// Returns the blades of a side, numbered from 1, in increasing order.
     #[must_use]
     pub fn blades_of_side(&self, side: u32) -> Vec<u32> {
-        let (sides, reduced) = (self.sides, self.nodal_diameters / self.blades_per_side);
-        let first = u64::from(side % sides) * u64::from(inverse(reduced, sides)) % u64::from(sides);
-        let first = u32::try_from(first).unwrap_or(0);
-        (0..self.blades_per_side).map(|turn| 1 + first + turn * sides).collect()
+        let side = side % self.sides;
+        let first = (1..=self.sides).find(|&blade| self.side_of_blade(blade) == side);
+        let of_turn = |turn| first.map(|first| first + turn * self.sides);
+        (0..self.blades_per_side).filter_map(of_turn).collect()
     }
 
     /// Returns the next side in the direction of increasing phase.
@@ -251,20 +251,6 @@ pub(crate) fn fraction_of_turn(k: u32, parts: u32) -> (f64, f64) {
 /// Greatest common divisor, with `gcd(n, 0) = n`.
 pub(crate) fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
-}
-
-/// Multiplicative inverse of `number` modulo `modulus`, which must be coprime (extended Euclidean
-/// algorithm).
-fn inverse(number: u32, modulus: u32) -> u32 {
-    let modulus = i64::from(modulus);
-    let (mut rest, mut next) = (modulus, i64::from(number) % modulus);
-    let (mut factor, mut next_factor) = (0, 1);
-    while next > 0 {
-        let times = rest / next;
-        (rest, next) = (next, rest - times * next);
-        (factor, next_factor) = (next_factor, factor - times * next_factor);
-    }
-    u32::try_from(factor.rem_euclid(modulus)).unwrap_or(0)
 }
 
 #[cfg(test)]

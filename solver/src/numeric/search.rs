@@ -70,6 +70,15 @@ pub(crate) fn highest([mut low, mut high]: [f64; 2], of: impl Fn(f64) -> f64) ->
     if at_a >= at_b { (a, at_a) } else { (b, at_b) }
 }
 
+/// Returns the position of the maximum over a list of places in increasing order, refined between the
+/// neighbours of the highest inner place, and the value there.
+pub(crate) fn highest_of(places: &[f64], of: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    let at = |three: &[f64]| of(three[1]);
+    let around = places.windows(3).map(|three| ([three[0], three[2]], at(three)));
+    let (ends, _) = around.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(highest(ends, of))
+}
+
 /// Returns the spans of `places` (in increasing order) in which a condition is true. The condition
 /// is true at both ends of a span. An end between two places is located to the last digit by
 /// bisection.

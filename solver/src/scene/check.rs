@@ -3,7 +3,7 @@
 use super::beyond;
 use super::error::refuse_if;
 use super::keys;
-use super::units::{self, RangeError};
+use super::units::{Quantity, UnitError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use crate::numeric::rounding::rounded;
 
@@ -47,13 +47,31 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 /// # Errors
 /// The text has another form, an end is of another quantity, or the first end is not the lower one.
 pub fn speed_range(name: &str, text: &str) -> Result<[f64; 2], SceneError> {
-    match units::read_ends(text, units::Quantity::Speed) {
-        Ok((range, None)) if is_speed_range(range) => Ok(range),
-        Err(RangeError::End(why)) => {
-            Err(SceneError::Unit { key: name.to_string(), value: text.to_string(), why })
-        }
-        _ => Err(SceneError::refused(name, text, SPEED_RANGE)),
-    }
+    let (range, rest) = read_ends(name, text, Quantity::Speed, SPEED_RANGE)?;
+    let is_wrong = rest.is_some() || !is_speed_range(range);
+    refuse_if(is_wrong, name, text, SPEED_RANGE).map(|()| range)
+}
+
+/// Reads the ends of `FROM:TO` as numbers of a quantity, and returns the text after a second colon.
+/// Errors refer to the option or key `name`, of which `allowed` is the form in words. The caller
+/// checks whether the ends are finite.
+///
+/// # Errors
+/// The text has another form, or an end is not of this quantity.
+pub fn read_ends<'a>(
+    name: &str,
+    text: &'a str,
+    of: Quantity,
+    allowed: &str,
+) -> Result<([f64; 2], Option<&'a str>), SceneError> {
+    let mut parts = text.splitn(3, ':');
+    let mut end = || {
+        let part = parts.next().ok_or(UnitError::NoNumber);
+        let read = part.and_then(|part| of.read(part));
+        read.map_err(|why| SceneError::not_read(name, text, why, allowed))
+    };
+    let ends = [end()?, end()?];
+    Ok((ends, parts.next()))
 }
 
 /// Description of a range of speeds.
@@ -213,8 +231,8 @@ fn most_steps(scene: &Scene) -> f64 {
 
 /// Rounds down to four significant digits.
 pub(super) fn down(x: f64) -> f64 {
-    let near = four_digits(x);
-    if near > x { four_digits(near - unit(x)) } else { near }
+    let near = rounded(x, 4);
+    if near > x { rounded(near - unit(x), 4) } else { near }
 }
 
 /// Rounds up to four significant digits.
@@ -225,12 +243,7 @@ pub(super) fn up(x: f64) -> f64 {
 /// Returns the largest number of four digits that is less than `x`.
 fn below(x: f64) -> f64 {
     let near = down(x);
-    if near < x { near } else { four_digits(near - unit(x)) }
-}
-
-/// Rounds to four significant digits.
-fn four_digits(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
+    if near < x { near } else { rounded(near - unit(x), 4) }
 }
 
 /// Returns one unit of the fourth significant digit.

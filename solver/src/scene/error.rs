@@ -81,6 +81,25 @@ impl SceneError {
         Self::Refused { key: key.into(), value, allowed: allowed.into() }
     }
 
+    /// Creates the error for a text that is not a number of the right quantity.
+    pub fn not_read(
+        key: impl Into<String>,
+        value: impl ToString,
+        why: UnitError,
+        allowed: impl Into<String>,
+    ) -> Self {
+        match why {
+            UnitError::NoNumber => Self::refused(key, value, allowed),
+            why => Self::Unit { key: key.into(), value: value.to_string(), why },
+        }
+    }
+
+    /// Returns whether it refuses the value of this key.
+    #[must_use]
+    pub fn is_of(&self, path: &str) -> bool {
+        matches!(self, Self::Refused { key, .. } if key == path)
+    }
+
     /// Adds the path of the file that is refused.
     pub fn in_file(self, path: &str) -> Self {
         Self::InFile { path: path.to_string(), error: Box::new(self) }
@@ -96,7 +115,7 @@ pub(crate) fn visible(text: &str) -> String {
 ///
 /// # Errors
 /// Returns [`SceneError::Refused`].
-pub(super) fn refuse_if(
+pub(crate) fn refuse_if(
     is_wrong: bool,
     key: &str,
     value: impl ToString,

@@ -5,7 +5,7 @@ use strum::VariantNames;
 
 pub use super::differences::{differences, differing, view_differences};
 pub use super::handle::{Handle, Turn};
-use super::modes::{self, Structure};
+use super::modes::{self, MOST_HZ, Structure};
 use super::units::{Quantity, UnitError};
 use super::{ContactLaw, ModelSize, Scene, SceneError, SolverKind};
 use serde::Serialize;
@@ -194,6 +194,15 @@ impl Key {
         Quantity::of(self.unit)
     }
 
+    /// Returns its value in a scene, in its unit; NaN if it is no real number.
+    #[must_use]
+    pub fn real(&self, scene: &Scene) -> f64 {
+        match (self.get)(scene) {
+            Value::Real(number) => number,
+            _ => f64::NAN,
+        }
+    }
+
     /// Reads a number within the bounds of this key, real or whole. Errors refer to it as `name`.
     ///
     /// # Errors
@@ -215,15 +224,13 @@ impl Key {
     /// # Errors
     /// The text is not a value of this type.
     pub fn parse(&self, text: &str) -> Result<Value, SceneError> {
-        let refused = || SceneError::refused(self.path, text, self.allowed.to_string());
+        let refused =
+            |text: &str, why| SceneError::not_read(self.path, text, why, self.allowed.to_string());
         let trimmed = text.trim();
-        let number = |text: &str| {
-            self.quantity().read(text).map_err(|why| {
-                let (key, value) = (self.path.to_string(), text.to_string());
-                match why {
-                    UnitError::NoNumber => refused(),
-                    why => SceneError::Unit { key, value, why },
-                }
+        let number = |item: &str| {
+            self.quantity().read(item).map_err(|why| match why {
+                UnitError::NoNumber => refused(text, why),
+                why => refused(item, why),
             })
         };
         Ok(match self.allowed {
@@ -234,7 +241,9 @@ impl Key {
                 let item = |item: &str| number(item.trim().trim_matches('"'));
                 Value::Numbers(items.map(item).collect::<Result<_, _>>()?)
             }
-            Allowed::Whole { .. } => Value::Whole(trimmed.parse().map_err(|_| refused())?),
+            Allowed::Whole { .. } => {
+                Value::Whole(trimmed.parse().map_err(|_| refused(text, UnitError::NoNumber))?)
+            }
             Allowed::OneOf(_) | Allowed::Modes(_) => Value::Text(trimmed.to_string()),
             Allowed::Text { .. } => Value::Text(text.to_string()),
             Allowed::SomeOf(_) => {
@@ -421,6 +430,36 @@ pub static CLEARANCE_KEY: Key = Key {
         |scene, g0| scene.casing.radius_m = scene.bladed_disk.blade_length_m + g0
     )
 };
+
+/// Path of the frequency of the casing.
+pub const CASING_FREQUENCY: &str = "casing.frequency_hz";
+/// Path of the frequency of the disk.
+pub const BLADE_FREQUENCY: &str = "bladed_disk.frequency_hz";
+
+/// The frequencies at rest of the modes in use of casing and disk \[Hz\]. A file has them in its lists
+/// of modes; where a mode gives none, the stiffness is set that yields it.
+pub static FREQUENCY_KEYS: [Key; 2] = [
+    key!(
+        CASING_FREQUENCY,
+        Steps,
+        "Hz",
+        "frequency of the casing",
+        Allowed::Real { min: 0.0, max: MOST_HZ, above: true },
+        Real,
+        |scene| scene.frequency(0),
+        |scene, hertz| scene.set_frequency(0, hertz)
+    ),
+    key!(
+        BLADE_FREQUENCY,
+        Steps,
+        "Hz",
+        "frequency of the disk",
+        Allowed::Real { min: 0.0, max: MOST_HZ, above: true },
+        Real,
+        |scene| scene.frequency(1),
+        |scene, hertz| scene.set_frequency(1, hertz)
+    ),
+];
 
 /// Builds the [`Handle`] of a key, if it has one.
 macro_rules! handle {

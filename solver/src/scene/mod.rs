@@ -24,15 +24,14 @@ use serde::Serialize;
 use strum::{AsRefStr, Display, EnumString, VariantNames};
 
 pub use builtin::{BUILTIN, Builtin, DEFAULT};
-pub use check::speed_range;
 pub(crate) use check::{SPEED_RANGE, STEP_ROUND_OFF, is_speed_range};
+pub use check::{read_ends, speed_range};
 pub use checked::{Adjustment, CheckedScene};
 pub use error::SceneError;
-pub(crate) use error::visible;
+pub(crate) use error::refuse_if;
 pub use file::{read_bytes, read_text};
 pub use keys::{Allowed, KEYS, Key, Value};
 pub use law::ContactLaw;
-pub(crate) use modes::MOST_HZ;
 pub use modes::{frequency_at_rest, hertz_of};
 pub use nearest::nearest;
 pub use units::Quantity;

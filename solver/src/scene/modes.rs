@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use toml::{Table, Value as Toml};
 
-use super::units::{Quantity, UnitError};
+use super::units::Quantity;
 use super::{Scene, SceneError, Value, file, keys};
 use crate::model::{BladedDisk, Casing, Mode, ModePart, given_frequency, neighbour_stiffness};
 use crate::numeric::rounding::rounded;
@@ -285,23 +285,20 @@ fn hertz(path: &str, value: &Toml) -> Result<f64, SceneError> {
 /// # Errors
 /// The text is not a frequency of a machine.
 pub fn hertz_of(path: &str, text: &str) -> Result<f64, SceneError> {
-    let given = match (Quantity::bare(text), Quantity::Speed.read(text)) {
-        (Some(bare), _) => Some(bare),
-        // Rounded to 14 digits, so that the conversion through 2 pi turns 310.7 Hz into 310.7.
-        (_, Ok(omega)) => Some(rounded(omega / TAU, 14)),
-        (_, Err(UnitError::NoNumber)) => None,
-        (_, Err(why)) => {
-            return Err(SceneError::Unit { key: path.into(), value: text.into(), why });
-        }
-    };
-    frequency(path, text.to_string(), given)
+    // Rounded to 14 digits, so that the conversion through 2 pi turns 310.7 Hz into 310.7.
+    let with_unit = || Quantity::Speed.read(text).map(|omega| rounded(omega / TAU, 14));
+    let given = Quantity::bare(text).map_or_else(with_unit, Ok);
+    let given = given.map_err(|why| SceneError::not_read(path, text, why, hertz_allowed()))?;
+    frequency(path, text.to_string(), Some(given))
+}
+
+fn hertz_allowed() -> String {
+    format!("a frequency above 0 and up to {MOST_HZ:e} Hz")
 }
 
 fn frequency(path: &str, given: String, hertz: Option<f64>) -> Result<f64, SceneError> {
-    hertz.filter(|hertz| *hertz > 0.0 && *hertz <= MOST_HZ).ok_or_else(|| {
-        let allowed = format!("a frequency above 0 and up to {MOST_HZ:e} Hz");
-        SceneError::refused(path, given, allowed)
-    })
+    let allowed = hertz.filter(|hertz| *hertz > 0.0 && *hertz <= MOST_HZ);
+    allowed.ok_or_else(|| SceneError::refused(path, given, hertz_allowed()))
 }
 
 /// Rejects disk modes that would need a negative blade stiffness.
@@ -353,29 +350,35 @@ impl Scene {
         ]
     }
 
+    /// Returns the frequency of the mode in use of the casing (0) or the disk (1), at rest if it is
+    /// given \[Hz\].
+    pub(super) fn frequency(&self, which: usize) -> f64 {
+        let of_stiffness = || {
+            let machine = self.machine();
+            [machine.omega_c, machine.omega_bd][which] / TAU
+        };
+        self.frequencies_in_use()[which].unwrap_or_else(of_stiffness)
+    }
+
     /// Sets the frequency of the mode in use of the casing (0) or the disk (1) \[Hz\]. If the mode
     /// gives no frequency, its stiffness is set instead.
-    pub(crate) fn set_frequency(&mut self, which: usize, hertz: f64) -> Result<(), SceneError> {
-        let square = (TAU * hertz).powi(2);
+    pub(super) fn set_frequency(&mut self, which: usize, hertz: f64) {
         let diameters = [self.operation.nodal_diameters, self.disk_diameters()][which];
-        let modes = [&mut self.casing.modes, &mut self.bladed_disk.modes];
-        let mode = modes
-            .into_iter()
-            .nth(which)
-            .and_then(|modes| modes.iter_mut().find(|mode| mode.nodal_diameters == diameters));
+        let modes = if which == 0 { &mut self.casing.modes } else { &mut self.bladed_disk.modes };
+        let mode = modes.iter_mut().find(|mode| mode.nodal_diameters == diameters);
         if let Some(given) = mode.and_then(|mode| mode.frequency_hz.as_mut()) {
-            *given = frequency(FREQUENCY, hertz.to_string(), Some(hertz))?;
-            return Ok(());
+            *given = hertz;
+            return;
         }
-        let BladedDisk { inertia_kg_m2, coupling_nm_per_rad, blades, .. } = self.disk_in_use();
-        let (key, stiffness) = match which {
-            0 => (keys::CASING_STIFFNESS, self.casing_in_use().modal_mass_kg * square),
-            _ => {
-                let neighbours = neighbour_stiffness(coupling_nm_per_rad, diameters, blades);
-                (keys::BLADE_STIFFNESS, inertia_kg_m2 * square - neighbours)
-            }
-        };
-        self.set_value(keys::find(key)?, Value::Real(stiffness))
+        let square = (TAU * hertz).powi(2);
+        if which == 0 {
+            let mass = self.casing_in_use().modal_mass_kg;
+            *self.casing_part(ModePart::Stiffness) = mass * square;
+        } else {
+            let BladedDisk { inertia_kg_m2, coupling_nm_per_rad, blades, .. } = self.disk_in_use();
+            let neighbours = neighbour_stiffness(coupling_nm_per_rad, diameters, blades);
+            *self.disk_part(ModePart::Stiffness) = inertia_kg_m2 * square - neighbours;
+        }
     }
 
     /// Returns a value of the casing's mode in use.

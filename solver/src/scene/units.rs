@@ -244,32 +244,6 @@ impl Quantity {
     }
 }
 
-/// Reason why a text is not a range.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum RangeError {
-    /// The text does not have the form `FROM:TO`.
-    Form,
-    /// One end is not a number of the expected quantity.
-    End(UnitError),
-}
-
-/// Reads the ends of `FROM:TO` as numbers of a quantity, and returns the text after a second colon.
-/// The caller checks whether the ends are finite.
-///
-/// # Errors
-/// The text has another form, or an end is not of this quantity.
-pub fn read_ends(text: &str, of: Quantity) -> Result<([f64; 2], Option<&str>), RangeError> {
-    let mut parts = text.splitn(3, ':');
-    let mut end = || match of.read(parts.next().ok_or(RangeError::Form)?) {
-        Ok(end) => Ok(end),
-        Err(UnitError::NoNumber) => Err(RangeError::Form),
-        Err(why) => Err(RangeError::End(why)),
-    };
-    let ends = [end()?, end()?];
-    Ok((ends, parts.next()))
-}
-
 /// Describes the accepted units in words.
 fn accepted_units(quantity: Quantity) -> String {
     format!("it takes {}", quantity.units())

@@ -2,10 +2,8 @@
 //! differences or equal ratios.
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use crate::scene::units::{RangeError, UnitError, read_ends};
-use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys, visible};
+use crate::scene::{Allowed, Key, Quantity, Scene, SceneError, Value, keys, read_ends};
 
 /// Largest number of values on an axis.
 pub const MOST_VALUES: u32 = 100_000;
@@ -13,55 +11,23 @@ pub const MOST_VALUES: u32 = 100_000;
 /// Largest ratio between the ends of a logarithmic axis, beyond that of any quantity of a machine.
 const MOST_FACTOR: f64 = 1e30;
 
-/// Reason why an axis was rejected.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum AxisError {
-    /// The text is not `PATH=FROM:TO:COUNT`.
-    #[error("axis {text}: allowed is PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT")]
-    Form {
-        /// Text as given.
-        text: String,
-    },
-    /// The key has no numeric value.
-    #[error("axis {path}: allowed is a key with a number, such as casing.damping_ratio")]
-    NotNumeric {
-        /// Dotted path.
-        path: String,
-    },
-    /// The range is not allowed.
-    #[error("axis {path} = {range}: allowed is {allowed}")]
-    Range {
-        /// Dotted path.
-        path: String,
-        /// Range as given.
-        range: String,
-        /// Allowed ranges, in words.
-        allowed: String,
-    },
-    /// An end of the range has a unit of another quantity.
-    #[error("axis {path} = {range}: {why}")]
-    Unit {
-        /// Dotted path.
-        path: String,
-        /// Range as given.
-        range: String,
-        /// What is wrong with the unit, and which units are allowed.
-        why: UnitError,
-    },
-    /// The key does not exist, or does not allow a value.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-}
+/// Form of an axis in words.
+const FORM: &str = "PATH=FROM:TO:COUNT or PATH=log:FROM:TO:COUNT";
 
-/// Reads `FROM:TO:COUNT`, with ends of the given quantity.
+/// Reads `FROM:TO:COUNT`, with ends of the given quantity. Errors refer to the option or key `name`,
+/// of which `allowed` is the form in words.
 ///
 /// # Errors
 /// The text has another form, or an end is of another quantity.
-pub fn parse_range(text: &str, of: Quantity) -> Result<(f64, f64, usize), RangeError> {
-    let ([from, to], count) = read_ends(text, of)?;
-    let count = count.and_then(|count| count.trim().parse().ok()).ok_or(RangeError::Form)?;
-    Ok((from, to, count))
+pub fn parse_range(
+    name: &str,
+    text: &str,
+    of: Quantity,
+    allowed: &str,
+) -> Result<([f64; 2], usize), SceneError> {
+    let (ends, count) = read_ends(name, text, of, allowed)?;
+    let count = count.and_then(|count| count.trim().parse().ok());
+    Ok((ends, count.ok_or_else(|| SceneError::refused(name, text, allowed))?))
 }
 
 /// A key and its values along one axis.
@@ -93,20 +59,16 @@ impl Axis {
     ///
     /// # Errors
     /// The key is unknown or not numeric, or the range is not allowed.
-    pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, AxisError> {
+    pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, SceneError> {
         let key = key_of(path)?;
         let whole = matches!(key.allowed, Allowed::Whole { .. });
         let [from, to] = if whole { [from.round(), to.round()] } else { [from, to] };
         let axis = Self { path: path.to_string(), from, to, count, log };
-        let refused = |allowed: &str| AxisError::Range {
-            path: path.to_string(),
-            range: format!(
-                "{}{}:{}:{count}",
-                if log { "log:" } else { "" },
-                Value::Real(from),
-                Value::Real(to)
-            ),
-            allowed: allowed.to_string(),
+        let refused = |allowed: &str| {
+            let (log, from, to) =
+                (if log { "log:" } else { "" }, Value::Real(from), Value::Real(to));
+            let range = format!("{log}{from}:{to}:{count}");
+            SceneError::refused(format!("axis {path}"), range, allowed)
         };
         if !(1..=MOST_VALUES).contains(&count) {
             return Err(refused("a count from 1 to 100000"));
@@ -129,26 +91,18 @@ impl Axis {
     ///
     /// # Errors
     /// The text has another form, or [`new`](Self::new) rejects the axis.
-    pub fn parse(text: &str) -> Result<Self, AxisError> {
-        let form = || AxisError::Form { text: visible(text) };
+    pub fn parse(text: &str) -> Result<Self, SceneError> {
+        let form = || SceneError::refused("axis", text, FORM);
         let Some((path, range)) = text.split_once('=') else {
             // A key alone lacks its range, unless it can have none.
-            let refused =
-                key_of(text).err().filter(|why| matches!(why, AxisError::NotNumeric { .. }));
+            let refused = key_of(text).err().filter(|why| why.is_of("axis"));
             return Err(refused.unwrap_or_else(form));
         };
-        let (log, range) = match range.trim().strip_prefix("log:") {
-            Some(rest) => (true, rest),
-            None => (false, range.trim()),
-        };
-        let path = path.trim();
-        let of = key_of(path)?.quantity();
-        let (from, to, count) = parse_range(range, of).map_err(|error| match error {
-            RangeError::Form => form(),
-            RangeError::End(why) => {
-                AxisError::Unit { path: path.to_string(), range: range.to_string(), why }
-            }
-        })?;
+        let (path, range) = (path.trim(), range.trim());
+        let ends = range.strip_prefix("log:");
+        let (log, ends) = (ends.is_some(), ends.unwrap_or(range));
+        let name = format!("axis {path}");
+        let ([from, to], count) = parse_range(&name, ends, key_of(path)?.quantity(), FORM)?;
         // A count that exceeds `u32` is rejected by `new` as too large.
         Self::new(path, from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
     }
@@ -215,10 +169,14 @@ impl Axis {
 }
 
 /// Returns the key of an axis, which must be numeric.
-fn key_of(path: &str) -> Result<&'static Key, AxisError> {
+fn key_of(path: &str) -> Result<&'static Key, SceneError> {
     let key = keys::find_varied(path)?;
     if !matches!(key.allowed, Allowed::Real { .. } | Allowed::Whole { .. }) {
-        return Err(AxisError::NotNumeric { path: path.to_string() });
+        return Err(SceneError::refused(
+            "axis",
+            path,
+            "a key with a number, such as casing.damping_ratio",
+        ));
     }
     Ok(key)
 }

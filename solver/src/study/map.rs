@@ -1,7 +1,6 @@
-//! Interaction map: the verdict of every cell over two axes, computed in parallel. A cell takes one
-//! byte of memory, so the time of the runs limits the size of a map.
+//! Interaction map: the verdict of every cell over two axes, computed in parallel. A cell takes
+//! two bytes of memory, so the time of the runs limits the size of a map.
 
-use std::ops::Index;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -34,7 +33,7 @@ pub struct Map {
     /// Plan of the map.
     pub plan: MapPlan,
     /// Cells row by row; `None` if not computed.
-    pub cells: Cells,
+    pub cells: Vec<Option<Cell>>,
     /// Number of cells that [`fill`](Self::fill) has computed.
     pub runs: u64,
     /// Wall time that [`fill`](Self::fill) has taken \[s\].
@@ -143,9 +142,12 @@ impl MapPlan {
         } else {
             (run_to_verdict(&scene, go_on)?, Certainty::default())
         };
-        let Certainty { sensitive, depends_on_step, .. } = certainty;
-        let depends_on_step = depends_on_step == Some(true);
-        Some(Cell { verdict: reached.verdict, sensitive, depends_on_step })
+        let doubt = match certainty {
+            Certainty { sensitive: true, .. } => Doubt::Sensitive,
+            Certainty { depends_on_step: Some(true), .. } => Doubt::Step,
+            _ => Doubt::None,
+        };
+        Some(Cell { verdict: reached.verdict, doubt })
     }
 }
 
@@ -153,7 +155,7 @@ impl Map {
     /// Creates a map without computed cells.
     #[must_use]
     pub fn empty(plan: MapPlan) -> Self {
-        let cells = Cells::empty(plan.len());
+        let cells = vec![None; plan.len()];
         Self { plan, cells, runs: 0, wall_s: 0.0 }
     }
 
@@ -173,7 +175,7 @@ impl Map {
             .filter(|&index| cells()[index].is_none() && go_on())
             .filter_map(|index| {
                 let cell = plan.compute(index, go_on)?;
-                cells().set(index, Some(cell));
+                cells()[index] = Some(cell);
                 keep(index, cell);
                 Some(())
             })
@@ -201,8 +203,8 @@ impl Map {
         let cells = || self.cells.iter().flatten();
         let count = Verdict::ALL
             .map(|verdict| (verdict, cells().filter(|cell| cell.verdict == verdict).count()));
-        let having = |fact: fn(&Cell) -> bool| cells().filter(|cell| fact(cell)).count();
-        (count, [having(|cell| cell.sensitive), having(|cell| cell.depends_on_step)])
+        let having = |doubt| cells().filter(|cell| cell.doubt == doubt).count();
+        (count, [having(Doubt::Sensitive), having(Doubt::Step)])
     }
 }
 
@@ -211,109 +213,33 @@ impl Map {
 pub struct Cell {
     /// Verdict.
     pub verdict: Verdict,
-    /// Whether a tiny change of the run alters the verdict.
-    pub sensitive: bool,
-    /// Whether another time step alters it; not examined for a sensitive cell.
-    pub depends_on_step: bool,
+    /// What alters the verdict.
+    pub doubt: Doubt,
+}
+
+/// What alters the verdict of a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// Nothing that was examined.
+    None,
+    /// A tiny change of the run.
+    Sensitive,
+    /// Another time step; not examined for a sensitive cell.
+    Step,
 }
 
 impl Cell {
     /// Creates a cell whose verdict is not doubtful.
     #[must_use]
     pub const fn of(verdict: Verdict) -> Self {
-        Self { verdict, sensitive: false, depends_on_step: false }
+        Self { verdict, doubt: Doubt::None }
     }
 
     /// Returns whether the verdict is sensitive or depends on the time step.
     #[must_use]
-    pub const fn is_doubtful(self) -> bool {
-        self.sensitive || self.depends_on_step
-    }
-}
-
-/// Meaning of a cell's byte: not computed, then every verdict without doubt, every verdict marked
-/// sensitive, and every verdict marked as dependent on the time step.
-static MEANING: [Option<Cell>; 1 + 3 * KINDS] = {
-    let mut meaning = [None; 1 + 3 * KINDS];
-    let mut kind = 0;
-    while kind < KINDS {
-        let cell = Cell::of(Verdict::ALL[kind]);
-        meaning[1 + kind] = Some(cell);
-        meaning[1 + KINDS + kind] = Some(Cell { sensitive: true, ..cell });
-        meaning[1 + 2 * KINDS + kind] = Some(Cell { depends_on_step: true, ..cell });
-        kind += 1;
-    }
-    meaning
-};
-const KINDS: usize = Verdict::ALL.len();
-
-/// Cells row by row; `None` if not computed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cells(Vec<u8>);
-
-impl Cells {
-    /// Creates cells that are not computed.
-    #[must_use]
-    pub fn empty(count: usize) -> Self {
-        Self(vec![0; count])
-    }
-
-    /// Returns the number of cells.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// Returns whether there are no cells.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Returns a cell; `None` outside the map.
-    #[must_use]
-    pub fn get(&self, index: usize) -> Option<&'static Option<Cell>> {
-        MEANING.get(usize::from(*self.0.get(index)?))
-    }
-
-    /// Sets a cell; does nothing outside the map.
-    pub fn set(&mut self, index: usize, cell: Option<Cell>) {
-        let byte = MEANING.iter().position(|meaning| *meaning == cell).unwrap_or_default();
-        if let (Some(place), Ok(byte)) = (self.0.get_mut(index), u8::try_from(byte)) {
-            *place = byte;
-        }
-    }
-
-    /// Iterates over all cells in order.
-    pub fn iter(&self) -> impl Iterator<Item = &'static Option<Cell>> + '_ {
-        (0..self.len()).filter_map(|index| self.get(index))
-    }
-}
-
-impl Index<usize> for Cells {
-    type Output = Option<Cell>;
-    fn index(&self, index: usize) -> &Option<Cell> {
-        &MEANING[usize::from(self.0[index])]
+    pub fn is_doubtful(self) -> bool {
+        self.doubt != Doubt::None
     }
 }
 
 type Keep<'a> = &'a (dyn Fn(usize, Cell) + Sync);
-
-#[cfg(test)]
-mod cells_tests {
-    use super::*;
-
-    #[test]
-    fn every_cell_has_a_byte_of_its_own() {
-        let mut cells = Cells::empty(MEANING.len() + 1);
-        for (index, meaning) in MEANING.iter().enumerate() {
-            cells.set(index, *meaning);
-        }
-        assert!(cells.iter().zip(&MEANING).all(|(cell, meaning)| cell == meaning));
-        assert_eq!((cells[MEANING.len()], cells.get(MEANING.len() + 1)), (None, None));
-        assert_eq!(cells.iter().flatten().count(), 3 * KINDS);
-        assert_eq!(cells.clone(), cells);
-        cells.set(3, None);
-        assert!(cells[3].is_none());
-    }
-}

@@ -10,5 +10,5 @@ pub mod overlay;
 pub mod precision;
 pub mod survey;
 
-pub use axis::{Axis, AxisError, parse_range};
-pub use map::{Cell, Cells, Map, MapPlan};
+pub use axis::{Axis, parse_range};
+pub use map::{Cell, Doubt, Map, MapPlan};

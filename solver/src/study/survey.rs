@@ -10,10 +10,10 @@ use std::time::Instant;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::margins::{LimitName, Parameter, shown_margin, speeds};
+use super::margins::{LimitName, shown_margin, speeds};
 use crate::harmonic::{SpeedRanges, lock_windows};
 use crate::model::{LockWindow, Machine};
-use crate::scene::{CheckedScene, SPEED_RANGE, Scene, SceneError, is_speed_range, keys};
+use crate::scene::{CheckedScene, Key, SPEED_RANGE, Scene, SceneError, is_speed_range, keys};
 
 /// Survey of a machine over all nodal diameters.
 ///
@@ -171,7 +171,7 @@ impl Survey {
     pub fn of(
         scene: &CheckedScene,
         range: Option<[f64; 2]>,
-        by: Option<&Parameter>,
+        by: Option<&Key>,
     ) -> Result<Self, SceneError> {
         if let Some([from, to]) = range.filter(|range| !is_speed_range(*range)) {
             return Err(SceneError::refused("range", format!("{from}:{to}"), SPEED_RANGE));
@@ -301,7 +301,7 @@ fn row(
     scene: &CheckedScene,
     diameters: u32,
     range: Option<[f64; 2]>,
-    by: Option<&Parameter>,
+    by: Option<&Key>,
 ) -> SurveyRow {
     // Without a list of modes there is only that of the scene's own nodal diameters.
     let is_other = diameters != scene.operation.nodal_diameters && scene.casing.modes.is_empty();
@@ -352,7 +352,7 @@ struct Speeds {
 }
 
 impl Speeds {
-    fn new(scene: &Scene, sense: f64, by: Option<&Parameter>) -> Self {
+    fn new(scene: &Scene, sense: f64, by: Option<&Key>) -> Self {
         let mut turned = scene.clone();
         turned.operation.speed_rad_s = sense * scene.operation.speed_rad_s.abs().max(1.0);
         let (limits, ranges) = speeds(&turned, by);

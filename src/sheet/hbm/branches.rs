@@ -4,14 +4,15 @@ use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
 use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    Branches, Corner, Equilibrium, Form, HarmonicError, Kind, Locked, LockedPoint, Threshold,
+    Branches, Corner, Equilibrium, Form, Kind, Locked, LockedPoint, Threshold,
 };
 use rubscope_solver::model::{LockWindow, TipCorner};
+use rubscope_solver::scene::{SceneError, keys};
 
 pub const BRANCHES: View = View {
     always_damped: false,
     // Rest and sliding on one side exist even if there is no corner to lock in.
-    contact: ViewContact::Rigid(|error| matches!(error, HarmonicError::NoCorner { .. })),
+    contact: ViewContact::Rigid(|error| error.is_of(keys::DIAMETERS)),
     unequal_tips: true,
     ..View::new(
         "branches",
@@ -20,19 +21,20 @@ pub const BRANCHES: View = View {
     )
 };
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let Request { machine, speeds, damped, .. } = request;
     if machine.has_unequal_tips() {
         return corners(request, sheet);
     }
     let branches = Branches::over(machine, speeds, *damped)?;
-    let states: Vec<Vec<Equilibrium>> =
-        (0..branches.speeds()).map(|place| branches.states_at(place)).collect::<Result<_, _>>()?;
-    let states = states.concat();
     let damping = if *damped { "with damping" } else { "without damping" };
     let changes = format!("Where branches change between these speeds, {damping}:");
     sheet.table("thresholds", changes, Table::of(branches.thresholds, THRESHOLDS));
-    sheet.table("points", "Equilibria of the blade frame:", Table::of(states, STATES).shown(8));
+    sheet.table(
+        "points",
+        "Equilibria of the blade frame:",
+        Table::of(branches.states, STATES).shown(8),
+    );
     sheet.chart("growth of a disturbance [1/s]", &[["growth_per_s", "growth"]]);
     Ok(())
 }
@@ -42,7 +44,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
 type CornerRow = ([Vec<u32>; 2], TipCorner, LockWindow, LockedPoint);
 
 /// Answers for unequal tips: every corner, the speeds at which it holds, and its loads there.
-fn corners(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn corners(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let Request { machine, speeds, damped, .. } = request;
     let polygon = machine.polygon.clone();
     let mut found: Vec<CornerRow> = Vec::new();

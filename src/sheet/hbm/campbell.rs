@@ -3,14 +3,13 @@
 use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
 use crate::sheet::table::{Column, Table, TableCell};
-use rubscope_solver::harmonic::{Campbell, Coincidence, HarmonicError, Line};
+use rubscope_solver::harmonic::{Campbell, Coincidence, Line};
+use rubscope_solver::scene::SceneError;
 
 pub const CAMPBELL: View = View {
     always_damped: false,
     // Frequencies exist without a corner, rigid contact or a harmonic balance.
-    contact: ViewContact::Rigid(|error| {
-        matches!(error, HarmonicError::NoCorner { .. } | HarmonicError::Refused { .. })
-    }),
+    contact: ViewContact::Rigid(|error| !error.is_of("blades")),
     unequal_tips: true,
     out_of_round: true,
     ..View::new(
@@ -23,7 +22,7 @@ pub const CAMPBELL: View = View {
 /// Engine orders drawn in addition to the scene's.
 const ORDERS: [u32; 4] = [1, 2, 3, 4];
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let excitation = &request.scene.excitation;
     let mut orders = ORDERS.to_vec();
     if excitation.amplitude_nm > 0.0 && !orders.contains(&excitation.order) {

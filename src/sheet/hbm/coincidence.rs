@@ -5,9 +5,8 @@ use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
 use crate::sheet::number::{per_speed, short, speed, speed_unit};
 use crate::sheet::table::{Column, Table};
-use rubscope_solver::harmonic::{
-    CoincidencePoint, HarmonicError, coincidence, shifted_coincidence,
-};
+use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
+use rubscope_solver::scene::SceneError;
 
 /// The view `--coincidence`.
 pub const COINCIDENCE: View = View {
@@ -20,7 +19,7 @@ pub const COINCIDENCE: View = View {
     )
 };
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let Request { scene, machine, speeds, .. } = request;
     let points = coincidence(scene, speeds)?;
     let sense = 1_f64.copysign(request.fastest());

@@ -8,16 +8,14 @@ use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table, TableCell};
 use crate::sheet::ticks::linspace;
-use rubscope_solver::harmonic::{HarmonicError, RoundWhirl, RoundWhirlLoads, round_whirls};
+use rubscope_solver::harmonic::{RoundWhirl, RoundWhirlLoads, round_whirls};
 use rubscope_solver::model::Frame;
-use rubscope_solver::scene::keys;
+use rubscope_solver::scene::{SceneError, keys};
 
 pub const COMPLIANCE: View = View {
     one_speed: true,
     // The compliance belongs to the structures, with or without a preload.
-    contact: ViewContact::Rigid(|error| {
-        matches!(error, HarmonicError::Refused { key: keys::CLEARANCE, .. })
-    }),
+    contact: ViewContact::Rigid(|error| error.is_of(keys::CLEARANCE)),
     out_of_round: true,
     ..View::new(
         "compliance",
@@ -33,7 +31,7 @@ const FREQUENCIES: usize = 201;
 /// The table extends to this multiple of the highest resonance, in both directions of travel.
 const BEYOND: f64 = 1.5;
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let machine = &request.machine;
     let turning = request.fastest();
     let frame = Frame::at(machine, turning);

@@ -4,8 +4,8 @@ use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::short;
 use crate::sheet::table::{Column, Table};
-use rubscope_solver::harmonic::{ExcitedLock, ExcitedLocks, HarmonicError, drives};
-use rubscope_solver::scene::keys;
+use rubscope_solver::harmonic::{ExcitedLock, drives, excited_locks};
+use rubscope_solver::scene::{SceneError, keys};
 
 pub const EXCITATION: View = View::new(
     "excitation",
@@ -13,17 +13,15 @@ pub const EXCITATION: View = View::new(
     fill,
 );
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let (machine, excitation) = (request.scene.machine(), &request.scene.excitation);
     let side = request.lock()?.corner().a;
     if excitation.amplitude_nm <= 0.0 {
         let allowed = "above 0 with --excitation, such as --set excitation.amplitude_nm=10";
-        return Err(HarmonicError::refused(keys::EXCITATION, excitation.amplitude_nm, allowed));
+        return Err(SceneError::refused(keys::EXCITATION, excitation.amplitude_nm, allowed));
     }
     let reaches = drives(&machine, excitation.order);
-    let found = ExcitedLocks::over(&machine, side, excitation, request.speeds)?;
-    let locks = (0..found.places()).filter_map(|place| found.lock_at(place).transpose());
-    let locks = locks.collect::<Result<Vec<ExcitedLock>, _>>()?;
+    let locks = excited_locks(&machine, side, excitation, request.speeds)?;
     let words = match reaches {
         true => ": amplitudes about the damped lock.",
         false => " does not drive these modes: E is not +-n_d modulo N.",

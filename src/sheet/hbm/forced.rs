@@ -5,8 +5,8 @@ use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
 use crate::sheet::number::count;
 use crate::sheet::table::{Column, Table};
-use rubscope_solver::harmonic::{Forced, HarmonicError, Lining};
-use rubscope_solver::scene::{ContactLaw, keys};
+use rubscope_solver::harmonic::{Forced, Lining};
+use rubscope_solver::scene::{ContactLaw, SceneError, keys};
 
 pub const FORCED: View = View {
     contact: ViewContact::OfScene,
@@ -18,16 +18,16 @@ pub const FORCED: View = View {
     )
 };
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let Request { scene, machine, speeds, .. } = request;
     let (height, lobes) = (scene.casing.out_of_round_m, scene.casing.lobes);
     if scene.solver.contact != ContactLaw::Smooth {
         let allowed = "\"smooth\" with --forced: blades that all rub press a lining";
-        return Err(HarmonicError::refused(keys::LAW, scene.solver.contact, allowed));
+        return Err(SceneError::refused(keys::LAW, scene.solver.contact, allowed));
     }
     if height == 0.0 {
         let allowed = "above 0 with --forced: a round casing drives nothing";
-        return Err(HarmonicError::refused(keys::OUT_OF_ROUND, height, allowed));
+        return Err(SceneError::refused(keys::OUT_OF_ROUND, height, allowed));
     }
     let lining = Lining::of(machine, &scene.contact)?;
     let forced: Vec<Forced> =

@@ -4,13 +4,14 @@ use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table};
-use rubscope_solver::harmonic::{Form, HarmonicError, LockedPoint, Sweep};
+use rubscope_solver::harmonic::{Form, LockedPoint, Sweep};
+use rubscope_solver::scene::SceneError;
 
 /// The view without an option.
 pub const LOCKED: View =
     View { always_damped: false, unequal_tips: true, ..View::new("", "", fill) };
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let mut sweep = request.lock()?.sweep(request.speeds)?;
     if request.is_rigid() {
         sweep.points.iter_mut().for_each(|point| point.alpha_rad = [0.0; 2]);

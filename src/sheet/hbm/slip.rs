@@ -4,14 +4,13 @@ use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table, TableCell};
-use rubscope_solver::harmonic::{
-    HarmonicError, SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over,
-};
+use rubscope_solver::harmonic::{SlipLimit, SlipOrbit, SlipPoint, slip_limits, slip_over};
+use rubscope_solver::scene::SceneError;
 
 pub const SLIP: View =
     View::new("slip", "View: lasting slip, a fixed point of the map from corner to corner", fill);
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let Request { machine, speeds, .. } = request;
     let points = slip_over(machine, speeds)?;
     let limits = slip_limits(machine, speeds)?;

@@ -7,10 +7,10 @@ use crate::sheet::Sheet;
 use crate::sheet::number::{short, speed};
 use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    Cycle, HarmonicError, HopfPoint, Lining, LiningState, Rest, growth_threshold,
-    least_lock_stiffness, lock_window, shifted_coincidence,
+    Cycle, HopfPoint, Lining, LiningState, Rest, growth_threshold, least_lock_stiffness,
+    lock_window, shifted_coincidence,
 };
-use rubscope_solver::scene::{ContactLaw, keys};
+use rubscope_solver::scene::{ContactLaw, SceneError, keys};
 
 pub const SMOOTH: View = View {
     contact: ViewContact::OfScene,
@@ -26,11 +26,11 @@ pub const SMOOTH: View = View {
 /// there is one.
 type RestRow = (Rest, bool, Option<Cycle>);
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let Request { scene, machine, speeds, .. } = request;
     if scene.solver.contact != ContactLaw::Smooth {
         let allowed = "\"smooth\" with --smooth: only a lining has these steady states";
-        return Err(HarmonicError::refused(keys::LAW, scene.solver.contact, allowed));
+        return Err(SceneError::refused(keys::LAW, scene.solver.contact, allowed));
     }
     let lining = Lining::of(machine, &scene.contact)?;
     let (mut states, mut cycles, mut rests): (Vec<LiningState>, Vec<Cycle>, Vec<RestRow>) =
@@ -80,7 +80,7 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicErro
              of {} N/m {held}.",
             short(least.stiffness_n_per_m),
             speed(least.speed_rad_s),
-            short(lining.stiffness_n_per_m)
+            short(lining.law.stiffness_n_per_m)
         );
     }
     sheet.table("points", title, Table::of(states, STATES).shown(9));

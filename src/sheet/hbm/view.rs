@@ -4,9 +4,9 @@
 use crate::sheet::line::capital;
 use crate::sheet::number::{count, rounded, short, span, speed};
 use crate::sheet::{CommandLine, Sheet};
-use rubscope_solver::harmonic::{Corner, Form, HarmonicError, Locked, lock_window};
+use rubscope_solver::harmonic::{Corner, Form, Locked, lock_window};
 use rubscope_solver::model::{LockWindow, Machine};
-use rubscope_solver::scene::{ModelSize, Scene, keys};
+use rubscope_solver::scene::{ModelSize, Scene, SceneError, keys};
 
 /// A view of the steady states of a scene.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ pub struct View {
 }
 
 /// Function that adds a view to a sheet.
-type Fill = fn(&Request<'_>, &mut Sheet<'_>) -> Result<(), HarmonicError>;
+type Fill = fn(&Request<'_>, &mut Sheet<'_>) -> Result<(), SceneError>;
 
 impl View {
     /// Creates a view of the damped motion in rigid contact at several speeds, derived for equal
@@ -57,7 +57,7 @@ pub enum ViewContact {
     OfScene,
     /// Rigid contact, and a corner in which it can lock. If there is no lock for a reason that the
     /// function accepts, the view is computed nevertheless; otherwise it is refused.
-    Rigid(fn(&HarmonicError) -> bool),
+    Rigid(fn(&SceneError) -> bool),
 }
 
 /// Input of a view.
@@ -88,7 +88,7 @@ impl<'a> Request<'a> {
         mut self,
         view: &View,
         command: CommandLine,
-    ) -> Result<Sheet<'static>, HarmonicError> {
+    ) -> Result<Sheet<'static>, SceneError> {
         self.refuse_uneven(view)?;
         if let ViewContact::Rigid(tolerates) = view.contact {
             let machine = self.scene.machine().with_lining(None);
@@ -107,13 +107,13 @@ impl<'a> Request<'a> {
     }
 
     /// Returns the solver of the lock of rigid contact.
-    pub(super) fn lock(&self) -> Result<Locked, HarmonicError> {
+    pub(super) fn lock(&self) -> Result<Locked, SceneError> {
         let Self { form, damped, pair, speeds, .. } = *self;
         if self.scene.clearance() <= 0.0 {
             // The limit of rigid contact needs a clearance.
             let allowed = "above 0 here: hbm --smooth has the steady states of a preloaded lining";
             let clearance = format!("{} m", rounded(self.scene.clearance(), 9));
-            return Err(HarmonicError::refused(keys::CLEARANCE, clearance, allowed));
+            return Err(SceneError::refused(keys::CLEARANCE, clearance, allowed));
         }
         let corner = Corner::of(&self.machine, speeds.last().copied().unwrap_or(1.0), pair)?;
         Locked::new(&self.machine, corner, form, damped)
@@ -138,7 +138,7 @@ impl<'a> Request<'a> {
     }
 
     /// Refuses unequal tips and an out-of-round casing if the view is not derived for them.
-    fn refuse_uneven(&self, view: &View) -> Result<(), HarmonicError> {
+    fn refuse_uneven(&self, view: &View) -> Result<(), SceneError> {
         // Tips that are all longer by the same length are equal.
         let tips = view.unequal_tips || !self.machine.has_unequal_tips();
         let is_known = |key| if key == keys::OUT_OF_ROUND { view.out_of_round } else { tips };
@@ -148,7 +148,7 @@ impl<'a> Request<'a> {
         let option =
             if view.option.is_empty() { "hbm".into() } else { format!("--{}", view.option) };
         let allowed = format!("none with {option}, which is not derived for it");
-        Err(HarmonicError::refused(key, format!("{length:e}"), allowed))
+        Err(SceneError::refused(key, format!("{length:e}"), allowed))
     }
 
     /// Adds the machine and its limits, as facts and as sentences. `damped` tells whether the view

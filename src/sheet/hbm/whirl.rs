@@ -6,9 +6,10 @@ use crate::sheet::Sheet;
 use crate::sheet::line::listed;
 use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
-    HarmonicError, RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
+    RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
 };
 use rubscope_solver::model::{LockWindow, Machine};
+use rubscope_solver::scene::SceneError;
 
 pub const WHIRL: View = View::new(
     "whirl",
@@ -17,7 +18,7 @@ pub const WHIRL: View = View::new(
     fill,
 );
 
-fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), HarmonicError> {
+fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let (machine, toward) = (&request.machine, request.fastest());
     let rows = request.speeds.iter().map(|&speed| WhirlRow::at(machine, speed));
     let rows: Vec<WhirlRow> = rows.collect();

@@ -130,7 +130,7 @@ pub fn table(found: &Robustness, at: &str) -> Table<'static> {
 
 /// Returns a value of the key `path` and its unit as text, with the SI prefix that suits `of`.
 fn amount(path: &str, value: f64, of: f64) -> [String; 2] {
-    match parameter(path).map_or("", |by| by.unit()) {
+    match parameter(path).map_or("", |by| by.unit) {
         "" | "-" => [short(rounded(value, DIGITS)), String::new()],
         unit => scaled(value, of, DIGITS, unit),
     }

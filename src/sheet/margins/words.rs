@@ -5,7 +5,9 @@ use crate::sheet::line::capital;
 use crate::sheet::number::{rounded, short, with_unit};
 use crate::sheet::table::TableCell;
 use rubscope_solver::scene::Scene;
-use rubscope_solver::study::margins::{Found, LimitName, MOST_TIMES, Margins, Quantity, parameter};
+use rubscope_solver::study::margins::{
+    Found, LimitName, MOST_TIMES, Margins, Quantity, changed, line, parameter,
+};
 
 /// Relative change above which the ratio of both values is shown (`10 x`) instead of per cent.
 const FACTORS: f64 = 9.0;
@@ -58,8 +60,8 @@ pub fn note(margins: &Margins) -> String {
 /// wanted value, or why none was found.
 pub fn target(found: &Found, margins: &Margins) -> String {
     let Found { name, by, .. } = *found;
-    let changed = parameter(by);
-    let (of_limit, unit) = (name.quantity().unit(), changed.map_or("", |by| by.unit()));
+    let key = parameter(by).ok();
+    let (of_limit, unit) = (name.quantity().unit(), key.map_or("", |by| by.unit));
     let unit = if unit == "-" { "" } else { unit };
     let wanted = with_unit(found.wanted, 6, of_limit);
     let parameter = |x: f64| format!("{} {unit}", short(x)).trim_end().to_string();
@@ -84,7 +86,7 @@ pub fn target(found: &Found, margins: &Margins) -> String {
         }
         None => format!("the scene has {}", parameter(found.from)),
     };
-    let line = changed.and_then(|by| by.line(&margins.scene, to));
+    let line = key.and_then(|by| line(by, &margins.scene, to));
     let line = line.map_or(String::new(), |line| format!(" In the scene file: {line}."));
     format!("{by} = {} puts {name} at {wanted} ({gives}).{line}", parameter(to))
 }
@@ -93,7 +95,7 @@ pub fn target(found: &Found, margins: &Margins) -> String {
 /// possible; `None` if no value was found.
 pub fn check(found: &Found, scene: &Scene) -> Option<CommandLine> {
     let (to, reached) = found.to.zip(found.reached)?;
-    let mut changed = parameter(found.by)?.set(scene, to).ok()?;
+    let mut changed = changed(parameter(found.by).ok()?, scene, to).ok()?;
     if found.name.quantity() == Quantity::Pulse {
         changed.operation.pulse_n = reached * BEYOND;
         // The touching pulse is exact; the event solver confirms it exactly where it applies.

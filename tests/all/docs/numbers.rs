@@ -4,7 +4,7 @@
 use rubscope_solver::harmonic::Lining;
 use rubscope_solver::motion::{RunReport, Verdict, simulate};
 use rubscope_solver::scene::Scene;
-use rubscope_solver::study::Cell;
+use rubscope_solver::study::{Cell, Doubt};
 
 use super::read;
 use crate::cli_support::{json, text};
@@ -226,11 +226,8 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     for verdict in Verdict::ALL {
         let word = verdict.as_ref();
         assert!(readme.says(&format!("*{word}*")), "{word}");
-        let [plain, letter] = [false, true].map(|sensitive| {
-            format!(
-                "`{}`",
-                rubscope::sheet::map::mark(Some(Cell { sensitive, ..Cell::of(verdict) }))
-            )
+        let [plain, letter] = [Doubt::None, Doubt::Sensitive].map(|doubt| {
+            format!("`{}`", rubscope::sheet::map::mark(Some(Cell { verdict, doubt })))
         });
         let row = [word.to_string(), format!("{plain} {letter}")];
         assert!(told.iter().any(|told| told[..2] == row), "{row:?}: {told:?}");
@@ -238,9 +235,8 @@ fn every_verdict_has_its_word_and_its_signs_in_the_tables_and_legends() {
     // The legend of a map with a sensitive cell has all letters.
     let map = ["map", "--solver", "event", "--speed", "500:500:1", "--pulse", "2e5:2e5:1"];
     let printed = text(&map);
-    let letters = Verdict::ALL.map(|verdict| {
-        rubscope::sheet::map::mark(Some(Cell { sensitive: true, ..Cell::of(verdict) }))
-    });
+    let letters = Verdict::ALL
+        .map(|verdict| rubscope::sheet::map::mark(Some(Cell { verdict, doubt: Doubt::Sensitive })));
     let told = format!("A letter ({}) marks", letters.map(String::from).join(" "));
     assert!(printed.contains(&told), "{printed}");
 }

@@ -9,8 +9,9 @@
 
 use super::Lining;
 use super::rest::Rest;
-use crate::harmonic::{HarmonicError, RoundWhirl, round_whirls};
-use crate::model::{Frame, Row};
+use crate::harmonic::{RoundWhirl, error, round_whirls};
+use crate::model::{Frame, Row, growth_about_wave};
+use crate::scene::SceneError;
 
 /// A wave of constant amplitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +42,7 @@ impl Lining<'_> {
     ///
     /// # Errors
     /// The stiffnesses differ by too many powers of ten.
-    pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, HarmonicError> {
+    pub fn cycles(&self, speed: f64) -> Result<Vec<Cycle>, SceneError> {
         let lining = self.at(speed);
         let mut found = Vec::new();
         for wave in round_whirls(&self.machine, speed) {
@@ -53,17 +54,14 @@ impl Lining<'_> {
         Ok(found)
     }
 
-    fn cycle(&self, speed: f64, wave: &RoundWhirl, r: f64) -> Result<Cycle, HarmonicError> {
+    fn cycle(&self, speed: f64, wave: &RoundWhirl, r: f64) -> Result<Cycle, SceneError> {
         let stiffness = wave.stiffness_n_per_m;
         let frame = Frame::at(&self.machine, speed).turning(wave.s_rad_s);
         // A change of the amplitude alters the secant stiffness; a change of the phase does not.
         let [radial, tangential] = [(1.0, 0.0), (0.0, 1.0)].map(|way| Row::fixed(&frame, way));
-        let springs = [(radial, stiffness + self.stiffness_change(r)), (tangential, stiffness)];
-        let mut values =
-            frame.motion(&[], &springs).eigenvalues().ok_or(HarmonicError::Unsettled { speed })?;
-        // The wave shifted in time is also a solution, so one eigenvalue is zero.
-        values.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-        let growth = values.iter().skip(1).map(|value| value.re).fold(f64::MIN, f64::max);
+        let springs = [(radial, stiffness + self.stiffness_of_wave(r)[1]), (tangential, stiffness)];
+        let growth = growth_about_wave(&frame.motion(&[], &springs));
+        let growth = growth.ok_or_else(|| error::unsettled(speed))?;
         Ok(Cycle {
             speed_rad_s: speed,
             omega_rad_s: wave.omega_rad_s,

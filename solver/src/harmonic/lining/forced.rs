@@ -35,7 +35,7 @@ impl Lining<'_> {
         let sense = if meets(1) { -1.0 } else { 1.0 };
         let s = sense * lobes as f64 * speed;
         let omega = s + frame.casing.turn;
-        let stiffness = 0.5 * blades as f64 * self.stiffness_n_per_m;
+        let stiffness = 0.5 * blades as f64 * self.law.stiffness_n_per_m;
         let driven = meets(1) || meets(-1);
         let push =
             (frame.turning(s).compliance() * stiffness + 1.0).norm().recip() * stiffness * height;
@@ -50,7 +50,7 @@ impl Lining<'_> {
             blade_angle_rad: push * frame.lever.abs() / frame.blades.dynamic_stiffness(s).norm(),
             // Change of depth: force divided by the stiffness of all blades; lobes that drive no
             // wave change it by their height.
-            all_press: here.preload_m() - self.smoothing_m > if driven { deep } else { height },
+            all_press: here.preload_m() - self.law.smoothing_m > if driven { deep } else { height },
         }
     }
 }

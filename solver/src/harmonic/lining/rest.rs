@@ -11,13 +11,14 @@
 //! interval. Every extremum of the scan is refined, so that a pair of sign changes between two
 //! points is not missed.
 
+use std::iter::successors;
+
 use nalgebra::Complex;
 
 use super::Lining;
-use super::law::between;
-use crate::harmonic::HarmonicError;
 use crate::model::{Frame, Machine};
-use crate::numeric::search::highest;
+use crate::numeric::search::{bisected, highest_of, zeros};
+use crate::scene::SceneError;
 
 /// Without damping, growth rates up to this part of the fastest frequency count as round-off.
 const UNDAMPED_GROWTH: f64 = 1e-11;
@@ -55,6 +56,8 @@ pub struct Rest {
     pub roots: [RestRoot; 4],
     /// Whether one of them grows by more than round-off.
     pub grows: bool,
+    /// Largest growth rate less its round-off \[1/s\].
+    excess_1_s: f64,
 }
 
 impl Rest {
@@ -72,12 +75,9 @@ impl Rest {
         let fastest = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
         let damped = frame.casing.damping > 0.0 && frame.blades.damping > 0.0;
         let round_off = if damped { 0.0 } else { UNDAMPED_GROWTH * fastest };
-        Self {
-            speed_rad_s: speed,
-            stiffness_n_per_m: stiffness,
-            grows: roots[0].growth_1_s > round_off,
-            roots,
-        }
+        let excess_1_s = roots[0].growth_1_s - round_off;
+        let grows = excess_1_s > 0.0;
+        Self { speed_rad_s: speed, stiffness_n_per_m: stiffness, roots, grows, excess_1_s }
     }
 
     /// Returns the motion with the largest growth rate.
@@ -173,43 +173,32 @@ impl Lining<'_> {
     ///
     /// # Errors
     /// The ends are not finite or not in increasing order.
-    pub fn hopf_points(&self, [from, to]: [f64; 2]) -> Result<Vec<HopfPoint>, HarmonicError> {
+    pub fn hopf_points(&self, [from, to]: [f64; 2]) -> Result<Vec<HopfPoint>, SceneError> {
         if !(from.is_finite() && to.is_finite() && from < to) {
             let (speeds, allowed) = (format!("{from}:{to}"), "two speeds, the lower one first");
-            return Err(HarmonicError::refused("speed", speeds, allowed));
+            return Err(SceneError::refused("speed", speeds, allowed));
         }
         // Friction reverses with the rotor; the growth rate jumps there, which is not a Hopf point.
-        if from <= 0.0 && to >= 0.0 && self.machine.friction != 0.0 {
-            let mut points = Vec::new();
-            for [from, to] in [[from, from * STANDSTILL], [to * STANDSTILL, to]] {
-                if from < to {
-                    points.extend(self.hopf_points([from, to])?);
-                }
-            }
-            return Ok(points);
-        }
-        let mut rests: Vec<Rest> =
-            self.scan_speeds([from, to]).into_iter().map(|speed| self.rest(speed)).collect();
-        let extremes: Vec<Rest> = rests
-            .windows(3)
-            .filter_map(|three| self.extreme([three[0], three[1], three[2]]))
-            .collect();
-        rests.extend(extremes);
-        rests.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-        let changes = rests.windows(2).filter(|pair| pair[0].grows != pair[1].grows);
-        Ok(changes
-            .map(|pair| {
-                let sign = |speed: f64| if self.rest(speed).grows { 1.0 } else { -1.0 };
-                let speed_rad_s = between([pair[0].speed_rad_s, pair[1].speed_rad_s], sign);
+        let reverses = from <= 0.0 && to >= 0.0 && self.machine.friction != 0.0;
+        let parts = match reverses {
+            true => vec![[from, from * STANDSTILL], [to * STANDSTILL, to]],
+            false => vec![[from, to]],
+        };
+        let points = |part: [f64; 2]| {
+            let growth = |speed: f64| self.rest(speed).excess_1_s;
+            let mut grows = growth(part[0]) > 0.0;
+            zeros(&self.scan_speeds(part), growth).into_iter().map(move |speed_rad_s| {
                 let worst = self.rest(speed_rad_s).worst();
+                grows = !grows;
                 HopfPoint {
                     speed_rad_s,
                     s_rad_s: worst.s_rad_s,
                     omega_rad_s: worst.omega_rad_s,
-                    grows_above: pair[1].grows,
+                    grows_above: grows,
                 }
             })
-            .collect())
+        };
+        Ok(parts.into_iter().filter(|[from, to]| from < to).flat_map(points).collect())
     }
 
     /// Returns the speeds of the scan, in increasing order.
@@ -240,20 +229,6 @@ impl Lining<'_> {
         places.dedup();
         places
     }
-
-    /// Refines the extremum among three neighbours; returns it if its sign differs from theirs.
-    fn extreme(&self, three: [Rest; 3]) -> Option<Rest> {
-        let [before, here, after] = three.map(|rest| rest.worst().growth_1_s);
-        let sense = if three[1].grows { -1.0 } else { 1.0 };
-        let alike = three.iter().all(|rest| rest.grows == three[1].grows);
-        if !(alike && sense * here >= sense * before && sense * here >= sense * after) {
-            return None;
-        }
-        let ends = [three[0].speed_rad_s, three[2].speed_rad_s];
-        let (speed, _) = highest(ends, |speed| sense * self.rest(speed).worst().growth_1_s);
-        let found = self.rest(speed);
-        (found.grows != three[1].grows).then_some(found)
-    }
 }
 
 /// Returns the smallest stiffness `S0` (all blades together) of a lining under preload at which
@@ -272,21 +247,15 @@ pub fn growth_threshold(machine: &Machine, sense: f64) -> Option<LeastStiffness>
         return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s });
     }
     let peak = |stiffness: f64| peak(machine, stiffness, sense);
-    let growth = |stiffness: f64| peak(stiffness).map_or(-1.0, |(_, growth)| growth);
-    let mut ends = [0.5 * guess, 2.0 * guess];
+    let grows = |stiffness: f64| peak(stiffness).is_some_and(|(_, growth)| growth > 0.0);
+    let begins = grows(guess);
+    let factor = if begins { 0.5 } else { 2.0 };
     // Sixty doublings each way cover any stiffness that can be built.
-    for _ in 0..60 {
-        if growth(ends[0]) > 0.0 {
-            ends = [0.5 * ends[0], ends[0]];
-        } else if growth(ends[1]) <= 0.0 {
-            ends = [ends[1], 2.0 * ends[1]];
-        } else {
-            let stiffness_n_per_m = between(ends, growth);
-            let (speed_rad_s, _) = peak(stiffness_n_per_m)?;
-            return Some(LeastStiffness { stiffness_n_per_m, speed_rad_s });
-        }
-    }
-    None
+    let far = successors(Some(factor * guess), |stiffness| Some(factor * stiffness));
+    let far = far.take(60).find(|&stiffness| grows(stiffness) != begins)?;
+    let [_, stiffness_n_per_m] = bisected([far / factor, far], |at| grows(at) != begins);
+    let (speed_rad_s, _) = peak(stiffness_n_per_m)?;
+    Some(LeastStiffness { stiffness_n_per_m, speed_rad_s })
 }
 
 /// Returns the speed \[rad/s\] of fastest growth near the coincidence on a lining of this total
@@ -295,11 +264,9 @@ fn peak(machine: &Machine, stiffness: f64, sense: f64) -> Option<(f64, f64)> {
     let middle = shifted_speed(machine, stiffness, sense)?;
     let reach = PEAK_REACH * width(machine, stiffness, sense);
     let growth = |speed: f64| Rest::new(machine, speed, stiffness).worst().growth_1_s;
-    let parts = 6.0 * PEAK_REACH;
-    let place = |k: f64| middle + reach * (2.0 * k / parts - 1.0);
-    let looks = (0..=parts as u32).map(f64::from).map(|k| (k, growth(place(k))));
-    let (best, _) = looks.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(highest([place(best - 1.0), place(best + 1.0)], growth))
+    let parts = 6 * PEAK_REACH as u32;
+    let place = |k| middle + reach * (2.0 * f64::from(k) / f64::from(parts) - 1.0);
+    highest_of(&(0..=parts).map(place).collect::<Vec<_>>(), growth)
 }
 
 #[cfg(test)]

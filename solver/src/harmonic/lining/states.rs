@@ -2,8 +2,8 @@
 //! by one, two, three or more neighbouring groups of blades; the loads of a lock of two groups, and
 //! the softest lining that holds one.
 //!
-//! Both structures are at rest in that frame, so two equations remain for `w = z - kappa l_b a`:
-//! `L_c w = [(1 + i mu_c) + c2 L_c/k_a] p(w)`, with `L_c` at `omega = nu`. For `eps = 0` they are
+//! Both structures are at rest in that frame, so one complex equation remains for
+//! `w = z - kappa l_b a`: `w/H = p(w)`, with the joint compliance `H = B(nu)`. For `eps = 0` it is
 //! linear for each set of groups in contact, and all sets of neighbours are tried. From these
 //! solutions, and from a grid of points, Newton's method continues to `eps > 0`.
 //!
@@ -16,16 +16,17 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{Complex, Matrix2, Vector2};
+use nalgebra::{Complex, Matrix2, Vector2, Vector4};
 
 use super::Lining;
 use super::rest::LeastStiffness;
 use crate::harmonic::LockLoads;
-use crate::harmonic::equations::NEWTON_STEPS;
-use crate::harmonic::{HarmonicError, error, has_one_wave};
-use crate::model::{Frame, LiningLaw, Machine, Row};
+use crate::harmonic::held::{Held, NEWTON_STEPS};
+use crate::harmonic::{error, has_one_wave};
+use crate::model::{Frame, Machine, Row};
 use crate::numeric::rounding::AS_ZERO;
-use crate::numeric::search::highest;
+use crate::numeric::search::highest_of;
+use crate::scene::SceneError;
 
 /// Range of `ln(speed/lock - 1)` in which the softest lining is searched, with the lock speed of rigid
 /// contact. A smaller range would exclude the optimum of nearly rigid linings.
@@ -79,16 +80,15 @@ pub struct GroupPush {
     pub push_n: f64,
 }
 
-/// The two equations at one speed.
+/// The equation `w/H = p(w)` at one speed.
 #[derive(Clone, Debug)]
 struct Balance<'a> {
     lining: Lining<'a>,
     /// Rotor speed \[rad/s\].
     speed: f64,
-    /// `L_c` at `nu` \[N/m\].
-    casing: Complex<f64>,
-    /// Factor of the contact forces, `(1 + i mu_c) + c2 L_c/k_a`.
-    pushed: Complex<f64>,
+    frame: Frame,
+    /// `1/H` \[N/m\].
+    inverse: Complex<f64>,
     /// Magnitude of both terms per unit of `w` \[N/m\].
     scale: f64,
 }
@@ -103,12 +103,10 @@ impl<'a> Balance<'a> {
         let lining = lining.at(speed);
         let machine = &*lining.machine;
         let frame = Frame::at(machine, speed);
-        let casing = frame.casing.dynamic_stiffness(frame.casing.turn);
-        let pushed = Complex::new(1.0, frame.friction)
-            + casing * (frame.coupling() / frame.blades.stiffness);
-        let together = lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
-        let scale = casing.norm() + pushed.norm() * together;
-        Self { lining, speed, casing, pushed, scale }
+        let inverse = frame.impedance();
+        let together = lining.law.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
+        let scale = inverse.norm() + together;
+        Self { lining, speed, frame, inverse, scale }
     }
 
     /// Returns index, direction and gap of every side at a displacement.
@@ -129,17 +127,18 @@ impl<'a> Balance<'a> {
             if gap >= 0.0 {
                 return (push, slope);
             }
-            let (here, stiff) = (self.lining.push(gap) * each, self.lining.slope(gap) * each);
+            let (here, stiff) =
+                (self.lining.law.push(gap) * each, self.lining.law.slope(gap) * each);
             (push + n * here, slope + n * n.transpose() * stiff)
         })
     }
 
-    /// Returns the residual of the two equations, divided by `scale`, and its derivative with
+    /// Returns the residual of the equation, divided by `scale`, and its derivative with
     /// respect to `w`.
     fn residual(&self, w: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
         let (push, slope) = self.pushes(w);
-        let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
-        ((casing * w - pushed * push) / self.scale, (casing + pushed * slope) / self.scale)
+        let inverse = as_matrix(self.inverse);
+        ((inverse * w - push) / self.scale, (inverse + slope) / self.scale)
     }
 
     /// Solves the equations by Newton's method; `None` if it does not converge.
@@ -171,15 +170,15 @@ impl<'a> Balance<'a> {
 
     /// Returns the characteristic length of the contact, clearance plus smoothing depth \[m\].
     fn length(&self) -> f64 {
-        self.lining.machine.clearance().abs() + self.lining.smoothing_m
+        self.lining.machine.clearance().abs() + self.lining.law.smoothing_m
     }
 
     /// Returns the displacement that contact on the first `sides` neighbouring sides would hold with
     /// a linear lining (`eps = 0`) \[m\]; `None` if the equations are singular.
     fn sprung(&self, sides: u32) -> Option<Vector2<f64>> {
         let machine = &*self.lining.machine;
-        let each = self.lining.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
-        let clearance = machine.clearance() + 0.5 * self.lining.smoothing_m;
+        let each = self.lining.law.stiffness_n_per_m * f64::from(machine.polygon.blades_per_side);
+        let clearance = machine.clearance() + 0.5 * self.lining.law.smoothing_m;
         let (mut push, mut slope) = (Vector2::zeros(), Matrix2::zeros());
         for side in 0..sides {
             let (cos, sin) = machine.polygon.direction(side);
@@ -187,8 +186,7 @@ impl<'a> Balance<'a> {
             push -= n * (each * clearance);
             slope += n * n.transpose() * each;
         }
-        let (casing, pushed) = (as_matrix(self.casing), as_matrix(self.pushed));
-        (casing + pushed * slope).lu().solve(&(pushed * push))
+        (as_matrix(self.inverse) + slope).lu().solve(&push)
     }
 
     /// Returns the starting points of Newton's method.
@@ -217,35 +215,34 @@ impl<'a> Balance<'a> {
     }
 
     /// Evaluates the state at a displacement.
-    fn state(&self, w: Vector2<f64>) -> Result<LiningState, HarmonicError> {
+    fn state(&self, w: Vector2<f64>) -> Result<LiningState, SceneError> {
         let machine = &*self.lining.machine;
-        let unsettled = HarmonicError::Unsettled { speed: self.speed };
+        let unsettled = || error::unsettled(self.speed);
         let (push, _) = self.pushes(w);
-        let frame = Frame::at(machine, self.speed);
+        let frame = &self.frame;
         let each = f64::from(machine.polygon.blades_per_side);
         let closed = self.gaps(w).filter(|(.., gap)| *gap < 0.0);
         let spring = |(_, n, gap): (u32, Vector2<f64>, f64)| {
-            (Row::fixed(&frame, (n.x, n.y)), self.lining.slope(gap) * each)
+            (Row::fixed(frame, (n.x, n.y)), self.lining.law.slope(gap) * each)
         };
         let springs: Vec<_> = closed.map(spring).collect();
-        let values = frame.motion(&[], &springs).eigenvalues().ok_or(unsettled.clone())?;
-        let worst = values.iter().copied().max_by(|a, b| a.re.total_cmp(&b.re)).ok_or(unsettled)?;
+        let values = frame.motion(&[], &springs).eigenvalues().ok_or_else(unsettled)?;
+        let worst =
+            values.iter().copied().max_by(|a, b| a.re.total_cmp(&b.re)).ok_or_else(unsettled)?;
         let fastest = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
         let mut pushes: Vec<GroupPush> = self
             .gaps(w)
             .filter(|(_, _, gap)| *gap < 0.0)
             .map(|(side, _, gap)| GroupPush {
                 blades: machine.polygon.blades_of_side(side),
-                push_n: self.lining.push(gap) * each,
+                push_n: self.lining.law.push(gap) * each,
             })
             .collect();
         pushes.sort_by(|a, b| b.push_n.total_cmp(&a.push_n));
         let push = Complex::new(push.x, push.y);
-        let lead = machine.radial_coupling + machine.friction_at(self.speed);
-        let bent = push * (lead * machine.blade_length / machine.blade_modal_stiffness);
         // From z = w + kappa l_b a, a = -(kappa + mu) l_b p/k_a.
-        let arm = machine.radial_coupling * machine.blade_length;
-        let casing = Complex::new(w.x, w.y) - bent * arm;
+        let bent = push * (frame.lever / frame.blades.stiffness);
+        let casing = Complex::new(w.x, w.y) - bent * frame.slope;
         Ok(LiningState {
             speed_rad_s: self.speed,
             pushing: pushes.len(),
@@ -266,7 +263,7 @@ impl Lining<'_> {
     ///
     /// # Errors
     /// The speed is not finite, or the stiffnesses differ by too many powers of ten.
-    pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, HarmonicError> {
+    pub fn states(&self, speed: f64) -> Result<Vec<LiningState>, SceneError> {
         error::refuse_endless(&[speed])?;
         let balance = Balance::at(self, speed);
         let mut places: Vec<Vector2<f64>> = vec![Vector2::zeros()];
@@ -284,10 +281,6 @@ impl Lining<'_> {
     }
 }
 
-fn dot(a: [f64; 2], n: [f64; 2]) -> f64 {
-    a[0] * n[0] + a[1] * n[1]
-}
-
 /// The two groups of the corner considered.
 const SIDES: [u32; 2] = [0, 1];
 
@@ -295,8 +288,7 @@ const SIDES: [u32; 2] = [0, 1];
 /// is unstable.
 fn place(machine: &Machine, speed: f64) -> Option<Vector2<f64>> {
     let law = machine.lining.filter(|_| has_one_wave(machine))?;
-    let LiningLaw { stiffness_n_per_m, smoothing_m } = law;
-    let lining = Lining { machine: Cow::Borrowed(machine), stiffness_n_per_m, smoothing_m };
+    let lining = Lining { machine: Cow::Borrowed(machine), law };
     let balance = Balance::at(&lining, speed);
     let w = balance.solve(balance.sprung(2)?)?;
     let pushing = balance.gaps(w).filter(|(.., gap)| *gap < 0.0).map(|(side, ..)| side);
@@ -308,35 +300,22 @@ fn place(machine: &Machine, speed: f64) -> Option<Vector2<f64>> {
 /// one.
 pub(in crate::harmonic) fn lock_loads(machine: &Machine, speed: f64) -> Option<LockLoads> {
     let machine = &*machine.at(speed);
-    let law = machine.lining?;
-    let w = place(machine, speed)?.into();
-    let polygon = &machine.polygon;
-    let each = f64::from(polygon.blades_per_side);
-    let normals = SIDES.map(|side| <[f64; 2]>::from(polygon.direction(side)));
-    let pushes = normals.map(|n| law.push(machine.clearance() + dot(w, n)) * each);
-    let sum =
-        |pushes: [f64; 2]| [0, 1].map(|k| pushes[0] * normals[0][k] + pushes[1] * normals[1][k]);
-    // From a = sum P (A - (kappa + mu) l_b) e^{i psi}/k_a, z = w + kappa l_b a.
-    let lead = (machine.radial_coupling + machine.friction_at(speed)) * machine.blade_length;
-    let bent = sum(pushes).map(|p| -p * lead / machine.blade_modal_stiffness);
-    let arm = machine.radial_coupling * machine.blade_length;
-    let z = [w[0] + bent[0] * arm, w[1] + bent[1] * arm];
-    let levers = normals.map(|n| (z[1] * n[0] - z[0] * n[1]) * machine.nodal_diameters);
-    let torques = [pushes[0] * levers[0], pushes[1] * levers[1]];
-    let swing = sum(torques).map(|torque| torque / machine.blade_modal_stiffness);
-    let angle = |side: u32| {
-        let n = polygon.direction(side).into();
-        dot(bent, n) + dot(swing, n)
-    };
-    let amplitude = (z[0] * z[0] + z[1] * z[1]).sqrt();
-    let torque_nm = -(torques[0] + torques[1]);
-    Some(LockLoads {
-        pushes_n: pushes,
-        alpha_rad: SIDES.map(angle),
-        amplitude_m: amplitude,
-        torque_nm,
-        power_w: torque_nm * speed,
-    })
+    let (law, w) = (machine.lining?, place(machine, speed)?);
+    let frame = Frame::at(machine, speed);
+    let each = f64::from(machine.polygon.blades_per_side);
+    let directions = SIDES.map(|side| machine.polygon.direction(side));
+    let normals = directions.map(|(cos, sin)| Complex::new(cos, sin));
+    let w = Complex::new(w.x, w.y);
+    let pushes = normals.map(|n| law.push(machine.clearance() + (w * n.conj()).re) * each);
+    let sum = |loads: [f64; 2]| normals[0] * loads[0] + normals[1] * loads[1];
+    // From z = w + kappa l_b a, a = sum P (A - (kappa + mu) l_b) e^{i psi}/k_a; the gap neglects A.
+    let bent = -sum(pushes) * (frame.lever / frame.blades.stiffness);
+    let z = w + bent * frame.slope;
+    let arms = normals.map(|n| (z * n.conj()).im * frame.diameters);
+    let a = bent + sum([pushes[0] * arms[0], pushes[1] * arms[1]]) / frame.blades.stiffness;
+    let loads = [(SIDES[0], -pushes[0]), (SIDES[1], -pushes[1])];
+    let at = Vector4::new(z.re, z.im, a.re, a.im);
+    LockLoads::of(machine, speed, &Held::new(machine, frame, at, &loads, 0.0))
 }
 
 /// Returns the smallest stiffness under one blade with which a lining holds a lock at a speed;
@@ -351,11 +330,6 @@ fn needed(machine: &Machine, speed: f64) -> f64 {
     1.0 / ((2.0 * polygon.delta).sin() * left * f64::from(polygon.blades_per_side))
 }
 
-/// Returns the speed for the logarithm of its relative excess over the lock speed of rigid contact.
-fn speed_at(lock: f64, excess: f64) -> f64 {
-    lock * (1.0 + excess.exp())
-}
-
 /// Returns the softest lining, by its stiffness under one blade, that holds a lock for forward
 /// rotation. Zero at the critical speed if the casing is undamped; `None` if rigid contact has no
 /// lock.
@@ -365,20 +339,14 @@ pub fn least_lock_stiffness(machine: &Machine) -> Option<LeastStiffness> {
     if machine.casing_damping == 0.0 && !machine.casing_feels_tips() {
         return Some(LeastStiffness { stiffness_n_per_m: 0.0, speed_rad_s: lock });
     }
-    let excess = bottom(machine, lock);
-    let speed_rad_s = speed_at(lock, excess);
-    Some(LeastStiffness { stiffness_n_per_m: needed(machine, speed_rad_s), speed_rad_s })
-}
-
-/// Returns the `excess` of [`speed_at`] at which the stiffness of [`needed`], which is unimodal in
-/// speed, is smallest.
-fn bottom(machine: &Machine, lock: f64) -> f64 {
-    let of = |excess: f64| needed(machine, speed_at(lock, excess));
     let [low, high] = WINDOW_REACH;
     let place = |k: u32| low + (high - low) * f64::from(k) / f64::from(WINDOW_LOOKS);
-    let best = (1..WINDOW_LOOKS).min_by(|&a, &b| of(place(a)).total_cmp(&of(place(b))));
-    let best = best.unwrap_or(1);
-    highest([place(best - 1), place(best + 1)], |excess| -of(excess)).0
+    let speed_at = |excess: f64| lock * (1.0 + excess.exp());
+    let needed_at = |excess: f64| needed(machine, speed_at(excess));
+    let places: Vec<f64> = (0..=WINDOW_LOOKS).map(place).collect();
+    let (excess, _) = highest_of(&places, |excess| -needed_at(excess))?;
+    let stiffness_n_per_m = needed_at(excess);
+    Some(LeastStiffness { stiffness_n_per_m, speed_rad_s: speed_at(excess) })
 }
 
 #[cfg(test)]

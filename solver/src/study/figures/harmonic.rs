@@ -1,9 +1,9 @@
 //! Figs. 9 and 10: the locked motion by harmonic balance as a function of speed.
 
 use super::{Figure, Mark, Panel, Quantity, Series, Style, group_name, speed_marks};
-use crate::harmonic::{Form, HarmonicError, LockedPoint, Sweep, locked_motion};
+use crate::harmonic::{Form, LockedPoint, Sweep, locked_motion};
 use crate::model::Machine;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneError};
 
 /// Number of speeds of a curve, from standstill to the speed of the scene.
 const SPEEDS: u32 = 501;
@@ -15,7 +15,7 @@ const AMPLITUDE: Quantity =
 const MICRO: Quantity = Quantity::new("alpha_rad", "blade angle [µrad]", 1e6);
 const NANO: Quantity = Quantity::new("alpha_rad", "blade angle [nrad]", 1e9);
 
-fn sweep(scene: &Scene, form: Form, damped: bool) -> Result<Sweep, HarmonicError> {
+fn sweep(scene: &Scene, form: Form, damped: bool) -> Result<Sweep, SceneError> {
     let top = scene.operation.speed_rad_s;
     let speeds: Vec<f64> =
         (0..SPEEDS).map(|n| top * f64::from(n) / f64::from(SPEEDS - 1)).collect();
@@ -37,7 +37,7 @@ fn plain(group: &str) -> String {
 }
 
 /// Draws Fig. 9: the multipliers, undamped as in the paper, and damped.
-pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
+pub fn multipliers(scene: &Scene) -> Result<Figure, SceneError> {
     let machine = scene.machine();
     let undamped = sweep(scene, Form::Printed, false)?;
     let damped = sweep(scene, Form::Modal, true)?;
@@ -79,7 +79,7 @@ pub fn multipliers(scene: &Scene) -> Result<Figure, HarmonicError> {
 }
 
 /// Draws Fig. 10: the amplitudes of casing and blades, undamped as in the paper.
-pub fn amplitudes(scene: &Scene) -> Result<Figure, HarmonicError> {
+pub fn amplitudes(scene: &Scene) -> Result<Figure, SceneError> {
     let machine = scene.machine();
     let [printed, blade, modal] = [
         sweep(scene, Form::Printed, false)?,

@@ -4,7 +4,6 @@ use std::fmt::{Display, Formatter};
 use std::str::FromStr;
 
 use super::{Figure, harmonic, time, zone};
-use crate::harmonic::HarmonicError;
 use crate::scene::{CheckedScene, Scene, SceneError};
 
 /// Numbers of the figures.
@@ -45,7 +44,7 @@ impl Which {
     ///
     /// # Errors
     /// None for the figure's own scene.
-    pub fn draw(self, scene: &CheckedScene) -> Result<Figure, HarmonicError> {
+    pub fn draw(self, scene: &CheckedScene) -> Result<Figure, SceneError> {
         let mut figure = match self.0 {
             4 => time::steps(scene),
             5 => time::gaps(scene),

@@ -4,11 +4,11 @@
 
 use serde::Serialize;
 
-use super::parameters::{CLEARANCE, Parameter, acting};
+use super::parameters::{CLEARANCE, acting, changed};
 use super::touching;
 use crate::motion::{GoOn, Verdict, VerdictReached, certainty, run_to_verdict};
 use crate::numeric::rounding::rounded;
-use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind, keys};
+use crate::scene::{CheckedScene, ContactLaw, Key, Scene, SolverKind, keys};
 
 /// Relative changes of a quantity at which runs are tried, in this order. Closer ones would find more
 /// islands, at the cost of more runs.
@@ -109,10 +109,10 @@ pub(super) fn scenes_to_run(scene: &CheckedScene) -> Vec<CheckedScene> {
 }
 
 /// Returns the rows for a scene: quantity, name, and unit of the search steps.
-pub(super) fn rows(scene: &Scene) -> Vec<(&'static Parameter, &'static str, f64)> {
+pub(super) fn rows(scene: &Scene) -> Vec<(&'static Key, &'static str, f64)> {
     let rows = CHANGED.iter().filter_map(|(path, name)| {
         let by = acting(scene).find(|by| by.path == *path)?;
-        let step = match (by.of(scene), by.path) {
+        let step = match (by.real(scene), by.path) {
             (0.0, keys::PULSE) => 2.0 * touching::smallest(scene)?.pulse_n.abs(),
             (0.0, keys::SPEED) => scene.machine().omega_c,
             (0.0, CLEARANCE) => return None,
@@ -129,7 +129,7 @@ pub(super) struct Search<'a> {
     pub scene: &'a CheckedScene,
     pub verdict: Verdict,
     /// Row as returned by [`rows`].
-    pub row: (&'static Parameter, &'static str, f64),
+    pub row: (&'static Key, &'static str, f64),
     pub go_on: GoOn<'a>,
 }
 
@@ -137,7 +137,7 @@ impl Search<'_> {
     /// Searches on both sides, from zero only upward; `None` if `go_on` stopped it.
     pub fn both(&self) -> Option<VerdictChange> {
         let (by, name, _) = self.row;
-        let (path, present) = (by.path, by.of(self.scene));
+        let (path, present) = (by.path, by.real(self.scene));
         let down = || match present == 0.0 {
             true => Some((None, present)),
             false => self.search_side(-1.0),
@@ -153,7 +153,7 @@ impl Search<'_> {
     fn search_side(&self, sense: f64) -> Option<(Option<ChangedVerdict>, f64)> {
         let (by, _, step) = self.row;
         // Rounded, so that the value can be typed.
-        let value = |steps: f64| rounded(by.of(self.scene) + sense * steps * step, CHANGE_DIGITS);
+        let value = |steps: f64| rounded(by.real(self.scene) + sense * steps * step, CHANGE_DIGITS);
         let (mut same, mut runs) = (0.0, 0);
         let mut found: Option<(f64, (CheckedScene, VerdictReached))> = None;
         while runs < CHANGE_RUNS {
@@ -178,15 +178,15 @@ impl Search<'_> {
         let Some((at, (scene, reached))) = found else { return Some((None, value(same))) };
         let certainty = certainty(&scene, reached, true, self.go_on)?;
         let sensitive = certainty.ends_otherwise || certainty.depends_on_step == Some(true);
-        let changed = ChangedVerdict { value: value(at), verdict: reached.verdict, sensitive };
-        Some((Some(changed), changed.value))
+        let found = ChangedVerdict { value: value(at), verdict: reached.verdict, sensitive };
+        Some((Some(found), found.value))
     }
 
     /// Runs the scene with this value; the inner `None` if the value is not allowed, the outer one
     /// if `go_on` stopped it.
     fn run_with(&self, value: f64) -> Option<Option<(CheckedScene, VerdictReached)>> {
         (self.go_on)().then_some(())?;
-        let scene = self.row.0.set(self.scene, value).and_then(|scene| scene.checked());
+        let scene = changed(self.row.0, self.scene, value).and_then(|scene| scene.checked());
         let Ok(scene) = scene else { return Some(None) };
         run_to_verdict(&scene, self.go_on).map(|reached| Some((scene, reached)))
     }

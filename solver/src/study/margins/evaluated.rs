@@ -6,12 +6,11 @@ use std::cell::OnceCell;
 use strum::IntoEnumIterator;
 
 use super::limit::{LimitName, Quantity};
-use super::parameters::Parameter;
 use super::sensitivity::{CHANGE, sensitivities};
 use super::touching::{self, FirstTouch};
 use crate::harmonic::{LockLoads, SpeedRanges, lobes_of, lock_loads, roundness};
 use crate::model::{LockWindow, Machine};
-use crate::scene::{ModelSize, Scene};
+use crate::scene::{Key, ModelSize, Scene};
 
 /// Limits that do not depend on contact. The others assume rigid contact, or a lining that is not
 /// compressed at rest; a compressed lining has other limits (`LiningState`).
@@ -113,7 +112,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// Returns the sensitivities of all these values to one parameter, in one list.
-    pub fn sensitivities(&self, all: &[(LimitName, Vec<f64>)], by: &Parameter) -> Vec<Option<f64>> {
+    pub fn sensitivities(&self, all: &[(LimitName, Vec<f64>)], by: &Key) -> Vec<Option<f64>> {
         let touch = self.touch.get().copied().flatten();
         let change = touch.map_or(CHANGE, |touch| touch.change(self.scene));
         sensitivities(self.scene, by, change, |changed| {
@@ -132,7 +131,7 @@ impl<'a> Evaluated<'a> {
 /// ranges of speed from which they follow.
 pub(in crate::study) fn speeds(
     scene: &Scene,
-    by: Option<&Parameter>,
+    by: Option<&Key>,
 ) -> (Vec<(LimitName, f64, Option<f64>)>, SpeedRanges) {
     let here = Evaluated::of(scene);
     let all = here.all(true);

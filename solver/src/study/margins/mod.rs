@@ -26,8 +26,8 @@ pub use changes::{ChangedVerdict, Robustness, VerdictChange};
 pub(super) use evaluated::speeds;
 pub(super) use limit::shown_margin;
 pub use limit::{Limit, LimitName, MOST_TIMES, Quantity, Sensitivities};
-pub use parameters::{CLEARANCE, PARAMETERS, Parameter, acting, parameter};
-pub use target::{Found, Target, TargetError};
+pub use parameters::{CLEARANCE, PARAMETERS, acting, changed, line, parameter};
+pub use target::{Found, Target};
 pub use touching::{FirstTouch, first_touch, grazing_pulse};
 
 /// All limits of one scene.

@@ -1,8 +1,9 @@
 //! Sensitivities `d ln(limit)/d ln(parameter)` by central differences of the limits themselves.
 
-use super::parameters::{CLEARANCE, Parameter, parameter};
+use super::parameters::{clearance_share, scaled};
 use crate::numeric::rounding::rounded;
-use crate::scene::Scene;
+use crate::scene::keys::{CASING_RADIUS, CLEARANCE_KEY};
+use crate::scene::{Key, Scene};
 
 /// Relative change of a parameter. A smaller one would amplify the round-off of a limit, 1e-16 to
 /// 1e-13, which is divided by it. With a larger one the error of fourth order would reach the fourth
@@ -27,14 +28,14 @@ const ROUND_OFF: f64 = 1e-6;
 /// two contributions are computed separately.
 pub(super) fn sensitivities(
     scene: &Scene,
-    by: &Parameter,
+    by: &Key,
     change: f64,
     limits: impl Fn(&Scene) -> Vec<f64>,
 ) -> Vec<Option<f64>> {
     let mut found = differences(scene, by, change, &limits);
-    let share = by.clearance_share(scene);
-    if let Some(clearance) = parameter(CLEARANCE).filter(|_| share != 0.0) {
-        let through = differences(scene, clearance, change, &limits);
+    let share = clearance_share(by, scene);
+    if share != 0.0 {
+        let through = differences(scene, &CLEARANCE_KEY, change, &limits);
         found.iter_mut().zip(through).for_each(|(by, through)| *by += share * through);
     }
     let told = |by: f64| {
@@ -50,17 +51,17 @@ pub(super) fn sensitivities(
 /// the error is of fourth order (Richardson).
 fn differences(
     scene: &Scene,
-    by: &Parameter,
+    by: &Key,
     change: f64,
     limits: &impl Fn(&Scene) -> Vec<f64>,
 ) -> Vec<f64> {
-    // A relative change of zero is zero.
-    if by.of(scene) == 0.0 || by.is_radius() {
+    // A relative change of zero is zero, and the radius acts through the clearance only.
+    if by.real(scene) == 0.0 || by.path == CASING_RADIUS {
         return vec![0.0; limits(scene).len()];
     }
     let slopes = |part: f64| {
-        let [low, high] = [-part, part].map(|part| by.scaled(scene, change * part));
-        let over = logarithm(by.of(&high), by.of(&low));
+        let [low, high] = [-part, part].map(|part| scaled(by, scene, change * part));
+        let over = logarithm(by.real(&high), by.real(&low));
         let slope = move |(high, low)| logarithm(high, low) / over;
         limits(&high).into_iter().zip(limits(&low)).map(slope)
     };

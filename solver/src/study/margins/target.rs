@@ -4,15 +4,14 @@
 
 use serde::Serialize;
 use strum::VariantNames;
-use thiserror::Error;
 
 use super::evaluated::Evaluated;
 use super::limit::LimitName;
-use super::parameters::{PARAMETERS, Parameter, parameter};
+use super::parameters::{changed, largest, parameter, value_at, walked};
 use crate::motion::GoOn;
 use crate::numeric::search::try_bisected;
 use crate::scene::units::UnitError;
-use crate::scene::{CheckedScene, Quantity};
+use crate::scene::{CheckedScene, Key, Quantity, SceneError};
 
 /// Factor between successive values of the parameter in the search. With a larger one a limit that
 /// passes the target and returns between two values would be missed.
@@ -25,43 +24,12 @@ const TARGET_SPAN: f64 = 1e6;
 /// target deviates by more; the round-off of the search deviates by less.
 const TARGET_REACHED: f64 = 1e-6;
 
-/// Reason why a target was rejected.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum TargetError {
-    /// The text has another form.
-    #[error("target {text}: allowed is NAME=VALUE, such as omega_lock=450, NAME one of {}", LimitName::VARIANTS.join(", "))]
-    Form {
-        /// Text as given.
-        text: String,
-    },
-    /// The value has a unit of another quantity.
-    #[error("target {text}: {why}")]
-    Unit {
-        /// Text as given.
-        text: String,
-        /// What is wrong with the unit, and which units are allowed.
-        why: UnitError,
-    },
-    /// There is no such parameter.
-    #[error("parameter {path}: allowed is one of {}", paths())]
-    Parameter {
-        /// Path as given.
-        path: String,
-    },
-}
-
-/// Lists the paths of all parameters.
-fn paths() -> String {
-    PARAMETERS.iter().map(|parameter| parameter.path).collect::<Vec<_>>().join(", ")
-}
-
 /// A limit, its wanted value, and the parameter to change.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
     name: LimitName,
     wanted: f64,
-    by: &'static Parameter,
+    by: &'static Key,
 }
 
 /// Result of the search.
@@ -92,36 +60,33 @@ impl Target {
     /// # Errors
     /// The text has another form, the limit is unknown, the value is not a finite number, or the
     /// path is not that of a parameter.
-    pub fn parse(text: &str, by: &str) -> Result<Self, TargetError> {
-        let form = || TargetError::Form { text: text.to_string() };
+    pub fn parse(text: &str, by: &str) -> Result<Self, SceneError> {
+        let refused = |why| {
+            let names = LimitName::VARIANTS.join(", ");
+            let allowed = format!("NAME=VALUE, such as omega_lock=450, NAME one of {names}");
+            SceneError::not_read("target", text, why, allowed)
+        };
+        let form = || refused(UnitError::NoNumber);
         let (name, value) = text.split_once('=').ok_or_else(form)?;
         let name: LimitName = name.trim().parse().map_err(|_| form())?;
-        let wanted = Quantity::of(name.quantity().unit()).read(value);
-        let wanted = wanted.map_err(|why| match why {
-            UnitError::NoNumber => form(),
-            why => TargetError::Unit { text: text.to_string(), why },
-        })?;
+        let wanted = Quantity::of(name.quantity().unit()).read(value).map_err(refused)?;
         if !wanted.is_finite() {
             return Err(form());
         }
-        let refused = || TargetError::Parameter { path: by.to_string() };
-        Ok(Self { name, wanted, by: parameter(by.trim()).ok_or_else(refused)? })
+        Ok(Self { name, wanted, by: parameter(by.trim())? })
     }
 
     /// Searches for the value; `None` if `go_on` returned false.
     #[must_use]
     pub fn solve(&self, scene: &CheckedScene, go_on: GoOn<'_>) -> Option<Found> {
         let Self { name, wanted, by } = *self;
-        let from = by.of(scene);
-        let mut walk = Walk { target: *self, scene, go_on, met: None, tried: [from; 2] };
-        let found = match walk.bracket().and_then(|ends| walk.halve(ends)) {
-            Ok(found) => Some(found),
-            Err(End::Nowhere) => None,
-            Err(End::Stopped) => return None,
-        };
+        let from = by.real(scene);
+        let mut walk =
+            Walk { target: *self, scene, go_on, stopped: false, met: None, tried: [from; 2] };
+        let found = walk.bracket().and_then(|ends| walk.halve(ends));
         let (to, reached) = found.unzip();
-        let Walk { met, tried, .. } = walk;
-        Some(Found { name, wanted, by: by.path, from, to, reached, met, tried })
+        let Walk { met, tried, stopped, .. } = walk;
+        (!stopped).then_some(Found { name, wanted, by: by.path, from, to, reached, met, tried })
     }
 }
 
@@ -130,52 +95,44 @@ struct Walk<'a> {
     target: Target,
     scene: &'a CheckedScene,
     go_on: GoOn<'a>,
+    /// Whether `go_on` has returned false.
+    stopped: bool,
     /// As in [`Found`], up to now.
     met: Option<[f64; 2]>,
     tried: [f64; 2],
 }
 
-/// Why there is no result: no such scene or limit, or `go_on` stopped the search.
-enum End {
-    Nowhere,
-    Stopped,
-}
-
 impl Walk<'_> {
-    /// Returns the excess of the limit over the wanted value at a value of the searched quantity.
-    fn excess(&mut self, walked: f64) -> Result<f64, End> {
+    /// Returns the excess of the limit over the wanted value at a value of the searched quantity;
+    /// `None` without such a scene or limit, and once the search has stopped.
+    fn excess(&mut self, walked: f64) -> Option<f64> {
         let Target { name, wanted, by } = self.target;
-        let value = by.value_at(self.scene, walked);
-        if !(self.go_on)() {
-            return Err(End::Stopped);
+        self.stopped |= !(self.go_on)();
+        if self.stopped {
+            return None;
         }
-        let scene = by.set(self.scene, value).and_then(|scene| scene.checked());
-        let scene = scene.map_err(|_| End::Nowhere)?;
-        let limit = Evaluated::of(&scene).values(name).first().copied().ok_or(End::Nowhere)?;
+        let value = value_at(by, self.scene, walked);
+        let scene = changed(by, self.scene, value).and_then(|scene| scene.checked()).ok()?;
+        let limit = Evaluated::of(&scene).values(name).first().copied()?;
         let [low, high] = self.tried;
         self.tried = [low.min(value), high.max(value)];
         let [least, most] = self.met.unwrap_or([limit; 2]);
         self.met = Some([least.min(limit), most.max(limit)]);
-        Ok(limit - wanted)
+        Some(limit - wanted)
     }
 
     /// Returns two neighbouring values between which the limit passes the wanted one, the nearest
     /// to the present value.
-    fn bracket(&mut self) -> Result<[f64; 2], End> {
-        let from = self.target.by.walked(self.scene).1;
+    fn bracket(&mut self) -> Option<[f64; 2]> {
+        let by = self.target.by;
+        let from = walked(by).real(self.scene);
         // If the present value is zero, the search goes only upward, from a value small enough for
         // any unit.
         let up_only = from == 0.0;
         let (start, span) =
             if up_only { (1.0 / TARGET_SPAN, TARGET_SPAN.powi(3)) } else { (from, TARGET_SPAN) };
         let steps = (span.ln() / TARGET_FACTOR.ln()).ceil() as i32;
-        let largest = self.target.by.largest();
-        let is_above = |walk: &mut Self, value| match walk.excess(value) {
-            Ok(excess) => Ok(Some((value, excess > 0.0))),
-            Err(End::Nowhere) => Ok(None),
-            Err(End::Stopped) => Err(End::Stopped),
-        };
-        let first = is_above(self, from)?;
+        let first = self.excess(from).map(|excess| (from, excess > 0.0));
         let mut ends = vec![(1, first), (-1, first)];
         ends.truncate(if up_only { 1 } else { 2 });
         for step in 1..=steps + 1 {
@@ -184,30 +141,33 @@ impl Walk<'_> {
                 let value = match (*sign, step > steps) {
                     (-1, true) => 0.0,
                     (_, true) => continue,
-                    _ => (start * TARGET_FACTOR.powi(*sign * step)).clamp(-largest, largest),
+                    _ => start * TARGET_FACTOR.powi(*sign * step),
                 };
-                let now = is_above(self, value)?;
+                let value = value.clamp(-largest(by), largest(by));
+                let now = self.excess(value).map(|excess| (value, excess > 0.0));
                 if let Some((before, now)) = before.zip(now)
                     && before.1 != now.1
                 {
-                    return Ok([before.0, now.0]);
+                    return Some([before.0, now.0]);
                 }
                 *before = now;
             }
         }
-        Err(End::Nowhere)
+        None
     }
 
     /// Bisects, and returns the parameter and the limit there, unless the limit jumps.
-    fn halve(&mut self, [low, high]: [f64; 2]) -> Result<(f64, f64), End> {
-        let above = self.excess(high)? > 0.0;
-        let ends = try_bisected([low, high], 0.0, |at| Ok((self.excess(at)? > 0.0) == above))?;
-        let [low, high] = [self.excess(ends[0])?, self.excess(ends[1])?];
-        let (at, excess) = if low.abs() <= high.abs() { (ends[0], low) } else { (ends[1], high) };
+    fn halve(&mut self, ends: [f64; 2]) -> Option<(f64, f64)> {
+        let above = self.excess(ends[1])? > 0.0;
+        let is_far = |at| self.excess(at).map(|excess| (excess > 0.0) == above).ok_or(());
+        let [low, high] = try_bisected(ends, 0.0, is_far).ok()?;
+        let both = [(low, self.excess(low)?), (high, self.excess(high)?)];
+        let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.abs().total_cmp(&b.1.abs());
+        let (at, excess) = both.into_iter().min_by(nearer)?;
         let [least, most] = self.met.unwrap_or_default();
         let size = self.target.wanted.abs().max(least.abs()).max(most.abs());
         let reached = excess.abs() <= TARGET_REACHED * size;
-        let value = self.target.by.value_at(self.scene, at);
-        reached.then_some((value, self.target.wanted + excess)).ok_or(End::Nowhere)
+        let value = value_at(self.target.by, self.scene, at);
+        reached.then_some((value, self.target.wanted + excess))
     }
 }

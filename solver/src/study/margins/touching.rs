@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::parameters::{Parameter, parameter};
+use super::parameters::{largest, parameter};
 use super::sensitivity::CHANGE;
 use crate::model::{Excitation, Initial, Machine};
 use crate::motion::FreeFlight;
@@ -73,7 +73,7 @@ pub fn first_touch(scene: &Scene, most: f64) -> Option<FirstTouch> {
 /// Returns the smallest pulse that makes a blade touch, with the sign of the scene's pulse; `None` as
 /// in [`grazing_pulse`], with the largest pulse that the key allows.
 pub(super) fn smallest(scene: &Scene) -> Option<FirstTouch> {
-    let most = parameter(PULSE).map_or(f64::MAX, Parameter::largest);
+    let most = parameter(PULSE).map_or(f64::MAX, largest);
     first_touch(scene, if scene.operation.pulse_n < 0.0 { -most } else { most })
 }
 

@@ -349,7 +349,7 @@ mod tests {
                     break;
                 }
                 assert!(!cover(&live), "{x} {y} {}", live.tried);
-                live.map.cells.set(index, cell);
+                live.map.cells[index] = cell;
                 live.tried += 1;
             }
             assert!(cover(&live));

@@ -65,7 +65,7 @@ fn compute(mut live: LiveMap, most: usize, to: &Sender<LiveMap>, go_on: GoOn<'_>
         let Ok(mut live) = live.lock() else { return };
         let (live, sent) = &mut *live;
         // A cell that takes too long stays empty.
-        live.map.cells.set(index, cell);
+        live.map.cells[index] = cell;
         live.map.runs += u64::from(cell.is_some());
         live.map.wall_s = wall_s + began.elapsed().as_secs_f64();
         live.tried += 1;
