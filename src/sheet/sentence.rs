@@ -12,6 +12,8 @@ use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
+/// Begins the sentences of a run whose verdict another step changes.
+pub(super) const AT_THIS_STEP: &str = "At this step only.";
 /// A sentence in its long and its short form.
 type Forms = [String; 2];
 
@@ -180,7 +182,11 @@ impl Facts {
         let mut texts: Vec<String> = [0, 1].map(|form| all(form).join(between)).into();
         texts.extend(notes.first().map(|first| first[1].clone()));
         texts.retain(|text| !text.is_empty());
-        Sentence { wrong, ..Sentence::of(&word, self.forms(), &texts, width) }
+        let mut forms = self.forms();
+        if self.certainty.depends_on_step == Some(true) {
+            forms = [format!("{AT_THIS_STEP} {}", forms[0]), AT_THIS_STEP.into()];
+        }
+        Sentence { wrong, ..Sentence::of(&word, forms, &texts, width) }
     }
 
     /// Describes the motion at the end of the run.
@@ -232,15 +238,6 @@ impl Facts {
         [long, short.into()]
     }
 
-    /// Describes the motion of the casing after the last contact.
-    fn rest(&self) -> &'static str {
-        match (self.seen, self.damped) {
-            (Some(_), _) => "no blade has touched since",
-            (None, true) => "the casing comes to rest",
-            (None, false) => "the casing swings on freely",
-        }
-    }
-
     fn held(&self) -> Forms {
         let [hold, push] = match self.blades.len() {
             1 => ["holds", "it pushes"],
@@ -274,7 +271,6 @@ impl Facts {
     }
 
     fn decayed(&self) -> Forms {
-        let rest = self.rest();
         let touched = self.seen.is_some_and(|seen| seen.without_contact_s < seen.span_s);
         if self.clearance_m < 0.0 || (self.law == ContactLaw::Smooth && touched) {
             return self.lately([
@@ -297,32 +293,30 @@ impl Facts {
         if self.still && self.touches == 0 {
             return plain(["Nothing moves and no blade touches.", "Nothing moves."]);
         }
+        let rest = if self.damped { "comes to rest" } else { "swings on freely" };
         if self.touches == 0 {
-            return [format!("No blade touches; {rest}."), "No blade touches.".into()];
+            return [format!("No blade touches; the casing {rest}."), "No blade touches.".into()];
         }
         let touches = touches(self.touches);
-        [format!("Contact ends after {touches}; {rest}."), "Contact ends.".into()]
+        [format!("Contact ends after {touches}; the casing {rest}."), "Contact ends.".into()]
     }
 
     fn failed(&self) -> Forms {
         let Some(failure) = &self.failure else {
             return plain(["The computation stops before the end.", "The computation stops."]);
         };
-        let (at, mut why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
-        if failure.reason.is_of_the_step() && self.certainty.depends_on_step == Some(true) {
-            why = "the step is too long";
-        }
+        let (at, why) = (with_unit(failure.t_s, 3, "s"), why(&failure.reason));
         [format!("The computation stops at {at}: {why}."), "The computation stops.".into()]
     }
 
-    /// Returns the notes on how the motion got there, the most serious first, and whether the first
-    /// one says that the result is suspect.
+    /// Returns the notes on how the motion got there, the most serious first, and whether the result
+    /// is suspect.
     fn notes(&self) -> (Vec<Forms>, bool) {
         let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
-        let sensitive = self.certainty.sensitive;
-        if self.certainty.depends_on_step == Some(true) {
-            notes.push(plain(["Another step changes the verdict.", "Another step changes it."]));
-        } else if let Some(other) = self.other.filter(|other| *other != self.verdict)
+        let Certainty { sensitive, depends_on_step, .. } = self.certainty;
+        let at_this_step = depends_on_step == Some(true);
+        if let Some(other) = self.other.filter(|other| *other != self.verdict)
+            && !at_this_step
             && !self.pulled
             && !sensitive
             && notes.is_empty()
@@ -332,7 +326,7 @@ impl Facts {
             let told = format!("The exact solver {does}.");
             notes.push([told.clone(), told]);
         }
-        let wrong = !notes.is_empty();
+        let wrong = at_this_step || !notes.is_empty();
         if let Some(speed) = self.broken.map(rad_s).filter(|_| !self.verdict.is_held()) {
             notes.push([format!("A lock broke at {speed}."), format!("Lock broke at {speed}.")]);
         }
@@ -344,8 +338,11 @@ impl Facts {
             notes.push([format!("Caught in a {at}."), format!("{}.", capital(&at))]);
         }
         if sensitive {
-            let ends = self.certainty.ends_otherwise;
-            let does = if ends { "changes the verdict" } else { "gives other impacts" };
+            let does = if self.certainty.ends_otherwise {
+                "changes the verdict"
+            } else {
+                "gives other impacts"
+            };
             notes.push([format!("A tiny change {does}."), "Sensitive.".into()]);
         }
         if self.in_one_step {

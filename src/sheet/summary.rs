@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::line::{blades, capital};
 use super::number::Digits;
 use super::number::{count, grouped, rounded, short, speed, time, with_unit};
-use super::sentence::Facts;
+use super::sentence::{AT_THIS_STEP, Facts, Sentence};
 use super::{CommandLine, History, Sheet, Wall};
 use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
@@ -40,7 +40,7 @@ pub fn sheet<'a>(
     let mut fields = json!(report);
     fields["solver"]["wall_s"] = json!(wall.run_s);
     fields["solver"]["certainty_s"] = json!(wall.certainty_s);
-    fields["outcome"]["state"] = json!(told.what);
+    fields["outcome"]["state"] = json!(capital(&state(&told)));
     fields["outcome"]["history"] = json!(told.history);
     if let Some(growth) = headline.growth {
         fields["outcome"]["growth_1_s"] = json!(growth);
@@ -93,7 +93,11 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     }
     lines.push(String::new());
     let told = Facts::of(report).sentence(usize::MAX);
-    lines.push(format!("Verdict: {}. {}", report.outcome.verdict, told.what));
+    let (state, verdict) = (state(&told), report.outcome.verdict);
+    lines.push(match state == told.what {
+        true => format!("Verdict: {verdict}. {state}"),
+        false => format!("Verdict: {state}"),
+    });
     lines.extend(told.history);
     lines.extend(report.outcome.message.as_ref().map(|message| format!("Reason: {message}.")));
     let outcome = &report.outcome;
@@ -114,6 +118,15 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     lines
 }
 
+/// Returns the sentence on the motion at the end, behind `locked at this step only` or the like where
+/// another step changes the verdict.
+fn state(told: &Sentence) -> String {
+    match told.what.strip_prefix(AT_THIS_STEP) {
+        Some(what) => format!("{} at this step only.{what}", told.word.to_lowercase()),
+        None => told.what.clone(),
+    }
+}
+
 /// Describes the speed, the pulse, the contact law, the solver and the model of a scene.
 pub(super) fn conditions(scene: &Scene) -> String {
     let (operation, solver) = (&scene.operation, &scene.solver);
@@ -129,15 +142,17 @@ pub(super) fn conditions(scene: &Scene) -> String {
     )
 }
 
-/// Describes the evidence for the verdict: a proof, or the interval of the run that was judged.
-fn basis(basis: Basis) -> String {
+/// Describes the evidence for the verdict: a proof, or the interval of the run that was judged. A
+/// proof of a run whose verdict another step changes is one of its steps.
+fn basis(basis: Basis, of_this_step: bool) -> String {
+    let verdict = if of_this_step { "At this step the verdict" } else { "The verdict" };
     match basis {
         Basis::Proved { by: Proof::NoContact, since_s } => {
             let since = time(since_s);
-            format!("The verdict is proved: no blade has touched since {since}, and none can.")
+            format!("{verdict} is proved: no blade has touched since {since}, and none can.")
         }
         Basis::Proved { by: Proof::HeldCorner, since_s } => format!(
-            "The verdict is proved: the forces of the blades that hold the wave since {} cannot \
+            "{verdict} is proved: the forces of the blades that hold the wave since {} cannot \
              change their sign.",
             time(since_s)
         ),
@@ -179,7 +194,9 @@ fn motion(report: &RunReport, machine: &Machine) -> Vec<String> {
         lines.push(format!("The wave turns at {wave}."));
     }
     lines.extend(digits.note().map(String::from));
-    lines.extend(outcome.basis.map(basis));
+    lines.extend(
+        outcome.basis.map(|evidence| basis(evidence, outcome.depends_on_step == Some(true))),
+    );
     if let Some(rate) = outcome.decay_rate_per_s.filter(|rate| *rate != 0.0) {
         let does = if rate < 0.0 { "grows" } else { "decays" };
         lines.push(format!("The wave {does} at {} 1/s.", short(rate.abs())));

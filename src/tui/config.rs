@@ -164,7 +164,7 @@ impl Memory {
             let place = folder.map_or("no home folder".into(), |folder| {
                 format!("{} is not a folder", folder.display())
             });
-            memory.complaint = Some(clean(&format!("settings will not be saved: {place}")));
+            memory.complaint = Some(clean(&format!("settings are not saved: {place}")));
         }
         memory
     }

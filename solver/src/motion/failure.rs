@@ -47,12 +47,6 @@ impl Failure {
 }
 
 impl FailureReason {
-    /// Returns whether another time step may not fail.
-    #[must_use]
-    pub fn is_of_the_step(&self) -> bool {
-        matches!(self, Self::LongStep { .. } | Self::Penetration { .. } | Self::Rows { .. })
-    }
-
     /// Returns whether the motion grew beyond the range of the model.
     #[must_use]
     pub fn is_growth(&self) -> bool {

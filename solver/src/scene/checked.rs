@@ -116,14 +116,18 @@ impl Scene {
         const CONTACT: &str = keys::LAW;
         const MODEL: &str = keys::MODEL;
         let mut made = Vec::new();
-        let inclined = self.bladed_disk.radial_coupling != 0.0;
+        let beyond_the_paper = [
+            (keys::RADIAL_COUPLING, self.bladed_disk.radial_coupling, "takes no inclined tips"),
+            (keys::FRICTION, self.contact.friction, "takes no friction"),
+            (keys::RESTITUTION, self.contact.restitution, "takes no restitution"),
+        ];
+        let needs =
+            beyond_the_paper.into_iter().find(|(key, value, _)| *value != 0.0 && asked(key));
         let solver = &mut self.solver;
-        if inclined
+        if let Some((_, _, why)) = needs
             && solver.contact == ContactLaw::Bilateral
-            && asked(keys::RADIAL_COUPLING)
             && !asked(CONTACT)
         {
-            let why = "takes no inclined tips";
             made.push(Adjustment { key: CONTACT, from: "bilateral", to: "unilateral", why });
             solver.contact = ContactLaw::Unilateral;
         }

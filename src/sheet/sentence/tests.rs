@@ -73,8 +73,8 @@ fn a_sentence_is_the_one_of_every_width_down_to_its_own() {
 fn assert_is_whole(told: &Sentence, width: usize) {
     let line = told.to_string();
     assert!(line.is_ascii(), "{width}: {line}");
-    let history = told.history.iter().flat_map(|history| history.split_inclusive(". "));
-    for sentence in std::iter::once(told.what.as_str()).chain(history).map(str::trim_end) {
+    let sentences = told.history.iter().chain([&told.what]);
+    for sentence in sentences.flat_map(|text| text.split_inclusive(". ")).map(str::trim_end) {
         assert!(sentence.ends_with('.') && !sentence.contains(".."), "{width}: {line}");
         assert!(sentence.split_whitespace().count() <= 18, "{width}: {line}");
         assert!(

@@ -11,10 +11,6 @@ fn has(model: ModelSize, scene: &Scene) -> bool {
     scene.solver.model == model
 }
 
-fn is_event(scene: &Scene) -> bool {
-    scene.solver.kind == SolverKind::Event
-}
-
 /// Defines functions of type [`Inert`], each by a condition on the scene and a reason.
 macro_rules! inert {
     ($($name:ident: |$scene:ident| $when:expr => $why:expr;)+) => {
@@ -26,26 +22,17 @@ inert! {
     rigid: |scene| has(ModelSize::Rigid, scene) => STILL;
     without_time: |scene| scene.operation.pulse_s == 0.0 => "the pulse time is 0";
     without_pulse: |scene| scene.operation.pulse_n == 0.0 => "the pulse is 0";
-    step: |scene| is_event(scene) => "the event solver has no steps";
+    step: |scene| scene.solver.kind == SolverKind::Event => "the event solver has no steps";
     lining: |scene| scene.solver.contact != ContactLaw::Smooth => "only the smooth law has a lining";
-    restitution: |scene| scene.solver.contact != ContactLaw::Unilateral => "only the unilateral law rebounds";
+    restitution: |scene| scene.solver.contact == ContactLaw::Smooth => "only rigid contact rebounds";
     not_modal: |scene| !has(ModelSize::Modal, scene) => "only the modal model uses n_b";
     not_full: |scene| !has(ModelSize::Full, scene) => "only the full model has individual blades";
+    friction: |scene| has(ModelSize::Rigid, scene) && scene.casing.tangential_ratio == 0.0 => "rigid blades and a radial casing do not feel friction";
     tangential: |scene| scene.contact.friction == 0.0 => "without friction nothing pulls the casing along";
     equal_tips: |scene| scene.bladed_disk.tip_scatter_m == 0.0 => "the tip scatter is 0";
     centred: |scene| scene.bladed_disk.orbit_m == 0.0 => "the orbit is 0";
     without_lobes: |scene| scene.casing.lobes == 0 => "there are no lobes";
     round: |scene| scene.casing.out_of_round_m == 0.0 => "the casing is round";
-}
-
-pub fn friction(scene: &Scene) -> Option<&'static str> {
-    match scene.solver.contact {
-        ContactLaw::Bilateral => Some("a pull has no friction: choose another contact law"),
-        _ if has(ModelSize::Rigid, scene) && scene.casing.tangential_ratio == 0.0 => {
-            Some("rigid blades and a radial casing do not feel friction")
-        }
-        _ => None,
-    }
 }
 
 pub fn draw(scene: &Scene) -> Option<&'static str> {

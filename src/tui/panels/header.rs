@@ -72,7 +72,7 @@ pub fn headline(app: &App, width: usize) -> (Sentence, Style) {
     }
     let sentence = app.sentence(width);
     let style = match app.verdict() {
-        _ if app.run.latest.trouble.is_some() => look.style(Role::Trouble),
+        _ if app.run.latest.trouble.is_some() || sentence.wrong => look.style(Role::Trouble),
         Some(verdict) => verdict_style(look, verdict),
         // Nothing is wrong, but no verdict will come.
         None if app.is_given_up() => look.style(Role::Text).add_modifier(Modifier::BOLD),
