@@ -1,6 +1,8 @@
 //! Text from outside (file names, titles, refused values) made safe to print on one line of a
 //! terminal.
 
+use unicode_width::UnicodeWidthChar;
+
 use rubscope_solver::scene::keys::is_plain;
 
 /// A message of more than twice this many characters keeps only this many at each end.
@@ -94,16 +96,10 @@ pub fn wrapped(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// Returns the number of columns that a character takes on the screen: two for East Asian scripts
-/// and pictographs, otherwise one.
+/// Returns the number of columns that a character takes on the screen. A letter of no width counts
+/// as one, so that a heap of them cannot fill one cell.
 fn columns(c: char) -> usize {
-    let wide = matches!(
-        c,
-        '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}'
-            | '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}'
-            | '\u{1f300}'..='\u{1faff}' | '\u{20000}'..='\u{3fffd}'
-    );
-    if wide { 2 } else { 1 }
+    c.width().unwrap_or(1).max(1)
 }
 
 #[cfg(test)]
