@@ -405,9 +405,9 @@ fn plain(forms: [&str; 2]) -> Forms {
 /// Explains why a run failed.
 fn why(reason: &FailureReason) -> &'static str {
     match reason {
-        FailureReason::BladeAngle { .. }
-        | FailureReason::CornerAngle { .. }
-        | FailureReason::TwoSides { .. } => "the blades bend too far",
+        FailureReason::BladeAngle { .. } | FailureReason::TwoSides { .. } => {
+            "the blades bend too far"
+        }
         FailureReason::NoCorner { .. } => "no blades hold the wave",
         FailureReason::Displacement { .. } => "the casing moves too far",
         FailureReason::CasingSpeed { .. } => "the casing outruns the blades",

@@ -8,8 +8,6 @@
 //! part is stored in a lining or lost in an impact, the second comes from the rotor. What the rotor
 //! does against friction beyond the second part is heat.
 
-use std::ops::AddAssign;
-
 use serde::Serialize;
 
 use crate::model::ContactPolygon;
@@ -214,19 +212,6 @@ pub struct EnergyAccount {
     pub impact_loss_j: f64,
     /// Increase of the energy stored in casing, blades and lining.
     pub stored_j: f64,
-}
-
-impl AddAssign for EnergyAccount {
-    fn add_assign(&mut self, other: Self) {
-        self.pulse_work_j += other.pulse_work_j;
-        self.rotor_work_j += other.rotor_work_j;
-        self.growth_work_j += other.growth_work_j;
-        self.casing_loss_j += other.casing_loss_j;
-        self.blade_loss_j += other.blade_loss_j;
-        self.friction_heat_j += other.friction_heat_j;
-        self.impact_loss_j += other.impact_loss_j;
-        self.stored_j += other.stored_j;
-    }
 }
 
 impl EnergyAccount {

@@ -73,17 +73,6 @@ pub enum FailureReason {
         /// Largest blade angle \[rad\].
         angle_rad: f64,
     },
-    /// Two sides of a corner are about to change their order.
-    #[error(
-        "blade angles of {angle_rad:.3e} rad close or open a corner; the sides keep their order \
-         only up to {most_rad:.3e} rad"
-    )]
-    CornerAngle {
-        /// Amplitude of the blade angles \[rad\].
-        angle_rad: f64,
-        /// Largest amplitude at which the order is kept \[rad\].
-        most_rad: f64,
-    },
     /// The two sides of a polygon without corners are about to meet.
     #[error("blade angles of {angle_rad:.3e} rad turn the only two sides onto each other")]
     TwoSides {

@@ -100,7 +100,7 @@ fn advance_following(
             if !scripted.advance_while(wave.next_observation(), go_on)? {
                 return Ok(false);
             }
-            wave.observe(scripted.motion.state());
+            wave.observe(&scripted.motion);
         }
     }
     scripted.advance_while(until, go_on)
@@ -125,7 +125,7 @@ pub fn run_to_end(
 ) -> RunReport {
     let mut scripted = Scripted::new(Motion::new(scene), script);
     let end = scene.solver.end_s;
-    let mut wave = WaveTracker::over(scene, script);
+    let mut wave = WaveTracker::over(scene);
     let mut sample = 0_u32;
     loop {
         let samples_left = sampling.intervals > 0 && sample <= sampling.intervals;
@@ -141,7 +141,7 @@ pub fn run_to_end(
             let decided = !wave.has_observed()
                 && scripted.is_through()
                 && scripted.motion.final_verdict().is_some();
-            if decided { wave.stop() } else { wave.observe(scripted.motion.state()) }
+            if decided { wave.stop() } else { wave.observe(&scripted.motion) }
         }
         if until >= sample_time {
             sink(&take_sample(&mut scripted.motion, sampling.gaps));

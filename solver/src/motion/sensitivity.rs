@@ -243,7 +243,7 @@ impl TinyChange {
         script: &Script,
         go_on: GoOn<'_>,
     ) -> Option<RunReport> {
-        let mut wave = WaveTracker::over(scene, script);
+        let mut wave = WaveTracker::over(scene);
         let (mut motion, _) = self.run(scene, script, Some(&mut wave), go_on)?;
         // A run whose verdict is known early continues to the end; a failed one stays where it is.
         let finished = motion.advance_while(scene.solver.end_s, go_on).unwrap_or(true);

@@ -2,8 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::State;
-use super::script::{Change, Script};
+use super::{Motion, State};
 use crate::model::Machine;
 use crate::motion::LAST_PART;
 use crate::scene::CheckedScene;
@@ -22,8 +21,6 @@ const OBSERVATIONS_PER_TURN: f64 = 16.0;
 pub(super) struct WaveTracker {
     /// End of the run \[s\].
     end: f64,
-    /// Time between observations \[s\].
-    interval: f64,
     /// Time of the next observation; infinite after the end \[s\].
     next: f64,
     /// Time \[s\] and wave angle \[rad\] of the first observation; `None` before it.
@@ -34,30 +31,18 @@ pub(super) struct WaveTracker {
     turned: f64,
 }
 
+/// Returns the time between two observations \[s\] at a rotor speed \[rad/s\].
+fn interval(machine: &Machine, speed: f64) -> f64 {
+    TAU / OBSERVATIONS_PER_TURN / (machine.nu(speed.abs()) + machine.omega_c)
+}
+
 impl WaveTracker {
-    pub fn over(scene: &CheckedScene, script: &Script) -> Self {
-        let machine = scene.machine();
-        let end = scene.solver.end_s;
-        let operation = &scene.operation;
-        let mut rotor = (0.0, operation.speed_rad_s, operation.speed_ramp_rad_s2);
-        let mut fastest = rotor.1.abs();
-        let mut frequency = machine.omega_c;
-        let at = |(since, speed, ramp): (f64, f64, f64), t: f64| speed + ramp * (t - since);
-        for (t, change) in script.changes() {
-            match change {
-                Change::Pulse => {}
-                Change::Parameters(scene) => frequency = frequency.max(scene.machine().omega_c),
-                Change::Rotor { speed, ramp } => {
-                    fastest = fastest.max(at(rotor, *t).abs());
-                    rotor = (*t, speed.unwrap_or(at(rotor, *t)), *ramp);
-                    fastest = fastest.max(rotor.1.abs());
-                }
-            }
-        }
-        fastest = fastest.max(at(rotor, end).abs());
-        let interval = TAU / OBSERVATIONS_PER_TURN / (machine.nu(fastest) + frequency);
-        let next = ((1.0 - LAST_PART) * end).max(end - MOST_OBSERVATIONS * interval);
-        Self { end, interval, next, first: None, last: (0.0, 0.0), turned: 0.0 }
+    pub fn over(scene: &CheckedScene) -> Self {
+        let (end, operation) = (scene.solver.end_s, &scene.operation);
+        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * end;
+        let shortest = interval(&scene.machine(), operation.speed_rad_s.abs().max(last.abs()));
+        let next = ((1.0 - LAST_PART) * end).max(end - MOST_OBSERVATIONS * shortest);
+        Self { end, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }
 
     /// Returns the time of the next observation; infinite after the end \[s\].
@@ -75,13 +60,16 @@ impl WaveTracker {
         self.next = f64::INFINITY;
     }
 
-    /// Records the state at the time of the next observation.
-    pub fn observe(&mut self, state: State) {
-        self.next = if self.next < self.end {
-            (self.next + self.interval).min(self.end)
-        } else {
-            f64::INFINITY
-        };
+    /// Records a motion at the time of the next observation.
+    pub fn observe(&mut self, motion: &Motion) {
+        let speed = motion.rotor().speed(motion.t_s());
+        self.see(motion.state(), interval(motion.machine(), speed));
+    }
+
+    /// Records a state, and when to observe the next one.
+    fn see(&mut self, state: State, interval: f64) {
+        self.next =
+            if self.next < self.end { (self.next + interval).min(self.end) } else { f64::INFINITY };
         if state.amplitude() == 0.0 {
             return;
         }
@@ -111,12 +99,12 @@ mod tests {
     /// Returns the measured speed of a wave that turns at a constant rate, and the number of
     /// observations.
     fn found(scene: &CheckedScene, rate: f64) -> (f64, u32) {
-        let mut wave = WaveTracker::over(scene, &Script::default());
+        let mut wave = WaveTracker::over(scene);
         let (machine, mut count) = (scene.machine(), 0);
         while wave.next_observation() <= scene.solver.end_s {
-            let t_s = wave.next_observation();
+            let (t_s, speed) = (wave.next_observation(), scene.operation.speed_rad_s);
             let (sin, cos) = (machine.nodal_diameters * rate * t_s).sin_cos();
-            wave.observe(State { t_s, u: [1e-4 * cos, 1e-4 * sin], ..State::default() });
+            wave.see(State { t_s, u: [cos, sin], ..State::default() }, interval(&machine, speed));
             count += 1;
         }
         (wave.speed(&machine).unwrap(), count)

@@ -26,7 +26,6 @@ fn failures() -> Vec<FailureReason> {
     let (angle_rad, rows) = (0.1, 7);
     vec![
         Reason::BladeAngle { angle_rad },
-        Reason::CornerAngle { angle_rad, most_rad: 0.01 },
         Reason::TwoSides { angle_rad },
         Reason::NoCorner { radius_m: 0.1 },
         Reason::Ramp,
