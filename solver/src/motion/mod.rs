@@ -5,7 +5,7 @@
 //! nothing is global.
 //!
 //! Order in which to read: `solver` (the common interface), `drive` and `contacts` (shared types),
-//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `verdict`,
+//! one kind of solver (`explicit` or `event`), then `run` with `script`, `wave`, `lasting`, `verdict`,
 //! `report` and `sensitivity`: a whole run, its verdict, and whether a tiny change alters it.
 
 mod contacts;
@@ -13,6 +13,7 @@ mod drive;
 mod event;
 mod explicit;
 mod failure;
+mod lasting;
 mod plane;
 mod point;
 mod propagator;

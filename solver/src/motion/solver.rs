@@ -4,18 +4,12 @@ use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
 use super::explicit::Explicit;
-use super::verdict::judge;
 use super::{
     Checks, ContactLog, EnergyAccount, Events, Failure, FailureReason, Plane, Pulse, Rotor, State,
     Verdict,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, SolverKind};
-
-/// Swing of the blade tips, as a part of the clearance, above which a slip is a whirl:
-/// blades that move contact rather than follow it. Smaller: blades that friction shakes
-/// count.
-pub(crate) const WHIRL_SWING: f64 = 0.25;
 
 /// Callback that decides during the computation whether to continue, for example a flag set by a
 /// signal or a time limit.
@@ -109,21 +103,7 @@ pub trait Solver: Debug + Send + Sync {
     }
 
     /// Returns the verdict over the last `window` seconds.
-    fn lasting(&self, window: f64) -> Verdict {
-        let clearance = self.machine().clearance().abs();
-        let (contacts, now) = (self.contacts(), self.t_s());
-        let verdict = match judge(contacts, now, window) {
-            Verdict::Slip if self.swing() > WHIRL_SWING * clearance => Verdict::Whirl,
-            other => other,
-        };
-        verdict.unless_forced(self.machine(), contacts, now - window)
-    }
-
-    /// Returns the outward swing of the blade tips over the last part of the run, `|kappa| l_b |a|`
-    /// \[m\].
-    fn swing(&self) -> f64 {
-        0.0
-    }
+    fn lasting(&self, window: f64) -> Verdict;
 
     /// Returns the latest pulse.
     fn pulse(&self) -> &Pulse;

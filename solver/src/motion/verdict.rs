@@ -1,6 +1,6 @@
 //! Verdicts: the long-term behaviour of a motion, determined in one place for all solvers
 //! (docs/theory.md, section 9). A proved verdict (`Solver::final_verdict`) applies at once;
-//! otherwise the last part of the run is judged ([`judge`]).
+//! otherwise the last part of the run is judged (`lasting`).
 //!
 //! A `Trend` extrapolates an amplitude from its values in the middle of the time since the last
 //! change, at three quarters of it, and now.
@@ -176,26 +176,6 @@ pub struct Checks {
     pub energy_residual_j: Option<f64>,
 }
 
-/// Returns the verdict at time `now` from the contacts of the last `window` seconds.
-#[must_use]
-pub fn judge(log: &ContactLog, now: f64, window: f64) -> Verdict {
-    let start = now - window;
-    let corner = matches!(log.active_set, ActiveSet::Corner(..) | ActiveSet::Many);
-    if corner && log.since <= start {
-        if log.last_tensile.is_some_and(|t| t >= start) {
-            Verdict::Adhesive
-        } else {
-            Verdict::Locked
-        }
-    } else if log.unbroken_since.is_some_and(|t| t <= start) {
-        Verdict::Slip
-    } else if log.last_contact.is_some_and(|t| t >= start) {
-        Verdict::Bounce
-    } else {
-        Verdict::Decay
-    }
-}
-
 /// Values of an amplitude at two instants of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trend {
@@ -267,10 +247,12 @@ const FALLEN: f64 = 0.98;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::lasting::Lasting;
 
     #[test]
     fn the_five_ways_to_last() {
         use ActiveSet::{Corner, Nothing, Side};
+        let machine = crate::scene::Scene::base().machine();
         // Touches of a run of 0.1 s with a window of 0.01 s, and the last pull.
         type Case<'a> = (&'a [(f64, ActiveSet)], Option<f64>, Verdict);
         let cases: [Case<'_>; 8] = [
@@ -288,7 +270,8 @@ mod tests {
             let mut log = ContactLog::default();
             touches.iter().for_each(|(t, sides)| log.touch(*t, *sides));
             pull.into_iter().for_each(|t| log.tensile(t));
-            assert_eq!(judge(&log, 0.1, 0.01), verdict, "{touches:?} {pull:?}");
+            let judged = Lasting::new(0.1).verdict(&machine, &log, [0.1, 0.01], || None);
+            assert_eq!(judged, verdict, "{touches:?} {pull:?}");
         }
     }
 }

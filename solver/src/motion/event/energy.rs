@@ -1,5 +1,5 @@
-//! Energy balance of a run, per unit casing mass; blade amplitudes; and the detection of motions
-//! that leave the range of the model.
+//! Energy balance of a run, per unit casing mass, and the detection of motions that leave the range
+//! of the model.
 //!
 //! Contact forces work on casing and blades through the slope of the wave, which moves with the
 //! rotor, and through friction. The product of `mu P` and the sliding speed is heat, which the
@@ -14,7 +14,6 @@ use super::flow::{Blades, Face, Flow};
 use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
-use crate::motion::verdict::Trend;
 use crate::motion::{Failure, FailureReason, Plane, dot, size};
 use crate::numeric::quadrature::GAUSS_8;
 use crate::numeric::search::bisected;
@@ -121,58 +120,6 @@ impl Energies {
     }
 }
 
-/// Largest blade amplitude over the last one or two casing periods.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Swings {
-    /// Casing period `2 pi/omega_c` \[s\].
-    period: f64,
-    /// End of the present period \[s\].
-    end: f64,
-    /// Largest amplitude in the previous period \[rad\].
-    before: f64,
-    /// Largest amplitude so far in the present period \[rad\].
-    now: f64,
-    /// Trend of the largest amplitudes of whole periods.
-    trend: Trend,
-}
-
-impl Swings {
-    pub(super) fn new(flow: &Flow, end: f64) -> Self {
-        let period = TAU / flow.machine.omega_c;
-        Self { period, end: period, before: 0.0, now: 0.0, trend: Trend::over(end) }
-    }
-
-    /// Records an amplitude at an instant \[rad\].
-    pub(super) fn see(&mut self, t: f64, amplitude: f64) {
-        if t >= self.end {
-            // After a whole period without a record the previous maximum is outdated.
-            self.before = if t < self.end + self.period { self.now } else { 0.0 };
-            (self.now, self.end) = (0.0, t + self.period);
-            self.trend.see(t, self.before);
-        }
-        self.now = self.now.max(amplitude);
-    }
-
-    /// Returns the amplitude to which the recorded ones tend \[rad\].
-    pub(super) fn lasting(&self) -> f64 {
-        self.trend.falls_to(self.largest()).unwrap_or_else(|| self.largest())
-    }
-
-    /// Begins the trend again, at a change on the way \[s\].
-    pub(super) fn change(&mut self, t: f64) {
-        self.trend.change(t);
-    }
-
-    /// Moves the end of the run \[s\], seen from the time `t` \[s\].
-    pub(super) fn set_end(&mut self, t: f64, end: f64) {
-        self.trend.set_end(t, end);
-    }
-
-    pub(super) fn largest(&self) -> f64 {
-        self.now.max(self.before)
-    }
-}
-
 impl Events {
     /// Returns the first instant within `s` seconds at which a blade angle is beyond the range of the
     /// model \[s\].
@@ -230,8 +177,10 @@ impl Events {
     pub(super) fn widest_until(&self, s: f64) -> f64 {
         let (flow, stretch) = (&self.flow, &self.stretch);
         let Some(Blades { propagator, .. }) = &flow.blades else { return 0.0 };
-        let wider = |widest: f64, a: Plane| {
-            if size(a) <= widest { widest } else { widest.max(flow.largest_angle(a)) }
+        let (polygon, mut near) = (&flow.machine.polygon, 0);
+        let mut wider = |widest: f64, a: Plane| match size(a) <= widest {
+            true => widest,
+            false => widest.max(polygon.largest_component_near(a.re, a.im, &mut near)),
         };
         let (mut a, mut da) = (stretch.from().a, stretch.from().da);
         if !stretch.free {

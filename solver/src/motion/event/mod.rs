@@ -28,6 +28,7 @@ mod transitions;
 use std::sync::OnceLock;
 
 use crate::model::Machine;
+use crate::motion::lasting::Lasting;
 use crate::motion::point::Point;
 use crate::motion::{
     Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
@@ -35,7 +36,7 @@ use crate::motion::{
 };
 use crate::numeric::lcp::Lcp;
 use crate::scene::{CheckedScene, SceneError};
-use energy::{Energies, Swings};
+use energy::Energies;
 use flow::Flow;
 use impact::Touch;
 use lasting::Rest;
@@ -89,7 +90,7 @@ pub struct Events {
     /// Bounds that can prove the present contact permanent, computed on demand; `None` if it has no
     /// stable equilibrium, or would not last there.
     rest: OnceLock<Option<Rest>>,
-    swings: Swings,
+    lasting: Lasting,
     /// Memory for the complementarity problems.
     problem: Lcp,
 }
@@ -125,7 +126,7 @@ impl Events {
             stretch: Stretch::flight(point, f64::INFINITY),
             next: (f64::INFINITY, Ending::StretchEnd),
             rest: OnceLock::new(),
-            swings: Swings::new(&flow, scene.solver.end_s),
+            lasting: Lasting::new(scene.solver.end_s),
             problem: Lcp::default(),
             flow,
         };
@@ -281,9 +282,9 @@ impl Solver for Events {
         Some(self.run.events)
     }
 
-    fn swing(&self) -> f64 {
-        let rise = self.machine().radial_coupling * self.machine().blade_length;
-        rise.abs() * self.swings.lasting()
+    fn lasting(&self, window: f64) -> Verdict {
+        let (machine, now) = (self.machine(), self.run.clock.now);
+        self.lasting.verdict(machine, &self.run.log, [now, window], || None)
     }
 
     fn blades_follow(&self) -> bool {
@@ -332,17 +333,17 @@ impl Solver for Events {
     }
 
     fn fire(&mut self) {
-        self.swings.change(self.run.clock.now);
+        self.lasting.change(self.run.clock.now);
         self.intervene(|motion, _| motion.run.fire());
     }
 
     fn set_end(&mut self, end: f64) {
-        self.swings.set_end(self.run.clock.now, end);
+        self.lasting.set_end(self.run.clock.now, end);
     }
 
     /// A ramp under which coefficients of the equations change in the blade frame is a failure.
     fn set_speed(&mut self, speed: f64, ramp: f64) {
-        self.swings.change(self.run.clock.now);
+        self.lasting.change(self.run.clock.now);
         self.intervene(|motion, point| {
             motion.run.rotor.change(motion.run.clock.now, speed, ramp);
             motion.change_speed(speed, ramp, point);

@@ -176,7 +176,8 @@ impl Events {
         if self.flow.nu_rate != 0.0 {
             self.flow.turn_at(self.run.rotor.speed(t), self.run.rotor.ramp());
         }
-        self.swings.see(t, size(point.a));
+        let (still, swing) = (Plane::default(), self.flow.arm().abs() * size(point.a));
+        self.lasting.look(t, still, still, swing);
         Some(point)
     }
 

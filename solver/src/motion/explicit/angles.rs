@@ -1,62 +1,50 @@
 //! Bounds on the blade angles: now, in all free motion to come, and in all steps so far.
 //!
-//! For a pair of modes these are a few products. The angles of a full disk are evaluated only now
-//! and then; between two evaluations every step adds its largest possible change to a slack.
+//! The angles are evaluated only now and then; between two evaluations every step adds its largest
+//! possible change to a slack.
 
-use super::disk::{Disk, total};
+use super::disk::Disk;
 use super::oscillator::{Coordinate, Oscillator};
-use super::shapes::dot;
 use crate::model::LARGEST_BLADE_ANGLE;
 
 /// Phase that the blades turn between two evaluations of the largest angle \[rad\]. The relative
 /// error is at most its square; within it the maximum is searched for.
 pub(super) const ANGLE_LOOK: f64 = 0.125;
 
-/// Angles of all blades at the latest evaluation, and how far they may have changed since.
+/// Largest blade angle at the latest evaluation, of a full disk all angles, and how far each may have
+/// changed since \[rad\].
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
-    pub angles: Vec<f64>,
+    angles: Vec<f64>,
+    largest: f64,
     pub slack: f64,
-    pub steps: u32,
-    /// Largest angle, and largest about the mean \[rad\].
-    pub largest: [f64; 2],
+}
+
+impl Seen {
+    /// Nothing is known yet.
+    pub const NOTHING: Self = Self { angles: Vec::new(), largest: 0.0, slack: f64::INFINITY };
 }
 
 impl Disk {
     /// Calls `put` with the angle of each row of a disk with more than a pair of modes \[rad\].
     pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
-        self.see_all();
-        let (members, (rows, per_row)) = (&self.seen.angles, self.rows());
+        let (rows, per_row) = self.rows();
+        let (members, _) = self.angles_within(0.0);
         for row in 0..rows {
             let each = (0..per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
             put(row, each.sum::<f64>() / f64::from(per_row));
         }
     }
 
-    /// Returns the angles of the distinct blades at the latest evaluation, and how far each may have
-    /// turned since; empty for a pair.
-    pub fn seen(&mut self) -> (&[f64], f64) {
-        self.see();
+    /// Returns the angles of the distinct blades of such a disk, and how far each may have turned
+    /// since, at most `slack` \[rad\].
+    pub fn angles_within(&mut self, slack: f64) -> (&[f64], f64) {
+        if self.seen.slack > slack {
+            let angles = self.every_member();
+            let largest = angles.iter().copied().map(size).fold(0.0, f64::max);
+            self.seen = Seen { angles, largest, slack: 0.0 };
+        }
         (&self.seen.angles, self.seen.slack)
-    }
-
-    /// Evaluates all blade angles, if they may have changed too much since the latest evaluation.
-    fn see(&mut self) {
-        if self.seen.slack > self.fixed.most_slack || self.seen.steps >= self.fixed.steps_unseen {
-            self.see_all();
-        }
-    }
-
-    fn see_all(&mut self) {
-        if self.seen.steps == 0 && self.seen.slack == 0.0 {
-            return;
-        }
-        self.seen.angles = self.every_member();
-        let angles = &self.seen.angles;
-        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-        let most = |about: f64| angles.iter().map(|x| size(x - about)).fold(0.0, f64::max);
-        self.seen.largest = [most(0.0), most(mean)];
-        (self.seen.slack, self.seen.steps) = (0.0, 0);
     }
 
     /// Returns a bound on every blade angle now \[rad\].
@@ -66,8 +54,9 @@ impl Disk {
             let [c, s] = self.pair_angles();
             return c.abs() + s.abs();
         }
-        self.see();
-        self.seen.largest[0] + self.seen.slack
+        // Twice as large at most.
+        self.angles_within(self.seen.largest);
+        self.seen.largest + self.seen.slack
     }
 
     /// Returns the largest angle about the mean of all blades; for a pair, its amplitude \[rad\].
@@ -75,8 +64,9 @@ impl Disk {
         if self.fixed.is_pair {
             return self.amplitude();
         }
-        self.see();
-        self.seen.largest[1]
+        let (angles, _) = self.angles_within(0.0);
+        let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+        angles.iter().map(|x| size(x - mean)).fold(0.0, f64::max)
     }
 
     /// Returns a bound on every blade angle in all free motion to come \[rad\].
@@ -103,53 +93,24 @@ impl Disk {
     /// is \[rad\].
     #[inline]
     pub fn watch(&mut self) -> Option<f64> {
-        let within = if self.fixed.is_pair {
-            let [c, s] = self.pair_angles();
-            c * c + s * s <= self.largest * self.largest
-        } else {
-            self.room >= 0.0
-        };
+        let within = self.seen.largest + self.seen.slack <= self.largest;
         if within { None } else { self.look() }
     }
 
     #[inline(never)]
     fn look(&mut self) -> Option<f64> {
-        let (now, bound) = self.look_beyond(self.largest);
-        self.largest = self.largest.max(now);
-        self.room = self.largest - bound;
-        let fits = now <= LARGEST_BLADE_ANGLE;
-        (!fits).then_some(now)
-    }
-
-    /// Returns the largest of the angles that may exceed `least`, and a bound on all angles.
-    fn look_beyond(&mut self, least: f64) -> (f64, f64) {
         if self.fixed.is_pair {
             let ([c, s], phases) = (self.pair_angles(), &self.fixed.phases);
             let is_finite = c.is_finite() && s.is_finite();
             let mut most = || phases.largest_component_near(c, s, &mut self.widest);
-            let now = if is_finite { most() } else { f64::INFINITY };
-            return (now, now);
+            let largest = if is_finite { most() } else { f64::INFINITY };
+            self.seen = Seen { largest, slack: 0.0, ..Seen::NOTHING };
+        } else {
+            self.angles_within(0.0);
         }
-        let angle = |member: usize| {
-            let shapes = self.fixed.blades.row(member);
-            size(total(dot(&shapes, self.modes.iter().map(|four| four.x))))
-        };
-        // If many blades may exceed it, evaluating all at once costs less than one by one.
-        let mut left = self.fixed.blades.count() / 8;
-        let (mut now, mut bound) = (0.0_f64, 0.0_f64);
-        for (member, seen) in self.seen.angles.iter().enumerate() {
-            let most = seen.abs() + self.seen.slack;
-            if most <= least {
-                bound = bound.max(most);
-            } else if left > 0 {
-                left -= 1;
-                now = now.max(angle(member));
-            } else {
-                self.see_all();
-                return (self.seen.largest[0], self.seen.largest[0]);
-            }
-        }
-        (now, bound.max(now))
+        let now = self.seen.largest;
+        self.largest = self.largest.max(now);
+        (now > LARGEST_BLADE_ANGLE).then_some(now)
     }
 
     /// With springs of their own the modes of the tuned disk exchange energy: all of it in one blade,

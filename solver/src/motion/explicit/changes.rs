@@ -10,7 +10,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::row::{TipLaw, Tips};
-use super::{Explicit, Oscillator, long_step, steps_unseen};
+use super::{Explicit, Oscillator, long_step};
 use crate::motion::{Change, Failure, FailureReason, Plane};
 use crate::scene::CheckedScene;
 
@@ -34,9 +34,7 @@ impl Explicit {
         self.casing = Oscillator::of_casing(&self.machine, self.drive.step);
         (self.law, self.restitution) = (scene.solver.contact, scene.contact.restitution);
         self.tips = TipLaw::at(&self.machine, speed);
-        self.backward = speed < 0.0;
         self.long_step = long_step(scene, &self.machine);
-        self.steps_unseen = steps_unseen(scene, &self.machine);
         // Gaps of earlier steps may change by as much as the clearance.
         self.dips = [self.machine.clearance().abs(); 2];
         let tips = Arc::new(Tips::new(&self.machine, self.disk.rows().0));

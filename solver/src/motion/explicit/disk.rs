@@ -21,8 +21,9 @@ use super::angles::Seen;
 use super::drive::EngineOrderTorque;
 use super::fixed::Fixed;
 use super::oscillator::{Coordinate, Oscillator};
+use super::row::Row;
 use super::shapes::{Four, Label, dot};
-use crate::model::{Machine, blade_frequency};
+use crate::model::Machine;
 use crate::scene::Scene;
 
 /// Coordinates of four modes and the coefficients of their recurrence, see [`Oscillator`].
@@ -53,30 +54,12 @@ pub(super) struct Disk {
     pub(super) widest: u32,
     /// Largest angle of any blade in any step \[rad\].
     pub(super) largest: f64,
-    /// Lower bound on the difference between that largest angle and every present angle \[rad\].
-    pub(super) room: f64,
 }
 
 impl Disk {
     /// Creates the disk of a scene at rest; at most `alike` blades share one coordinate.
     pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
-        let fixed = Fixed::new(scene, machine, alike);
-        let disk = &scene.disk_in_use();
-        let mass = |label: &Label| {
-            let blades = f64::from(disk.blades);
-            disk.inertia_kg_m2 * if label.is_alone { blades } else { 0.5 * blades }
-        };
-        let oscillators: Vec<Oscillator> = fixed
-            .labels
-            .iter()
-            .zip(&fixed.still)
-            .map(|(label, still)| {
-                let mass = mass(label);
-                let damping = 2.0 * disk.damping_ratio * blade_frequency(disk, label.diameters);
-                let stiffness = still + machine.stiffened_by() * mass;
-                Oscillator::new(mass, damping * mass, stiffness, scene.solver.step_s)
-            })
-            .collect();
+        let (fixed, oscillators) = Fixed::new(scene, machine, alike);
         let mut modes = vec![Modes::default(); fixed.blades.width()];
         for (m, oscillator) in oscillators.iter().enumerate() {
             let (four, lane) = (&mut modes[m / 4], m % 4);
@@ -90,17 +73,8 @@ impl Disk {
             |label: &Label| excitation.is_some_and(|torque| torque.drives(label.diameters));
         let driven = fixed.labels.iter().enumerate().filter(|(_, label)| is_driven(label));
         let driven = driven.map(|(m, _)| (m, 0.0)).collect();
-        let turn = oscillators.iter().map(Oscillator::turn).fold(f64::MIN_POSITIVE, f64::max);
-        let fixed = fixed.looked_at(turn, &oscillators);
-        let seen = Seen {
-            angles: vec![0.0; if fixed.is_pair { 0 } else { fixed.blades.count() }],
-            slack: f64::INFINITY,
-            steps: u32::MAX,
-            largest: [0.0; 2],
-        };
-        let fixed = Arc::new(fixed);
-        let oscillators = Arc::new(oscillators);
-        Self { modes, oscillators, fixed, driven, seen, widest: 0, largest: 0.0, room: 0.0 }
+        let (fixed, oscillators) = (Arc::new(fixed), Arc::new(oscillators));
+        Self { modes, oscillators, fixed, driven, seen: Seen::NOTHING, widest: 0, largest: 0.0 }
     }
 
     /// Returns the disk with these coordinates and the parameters of another scene. Blades that have
@@ -117,7 +91,7 @@ impl Disk {
                 disk.put(m, self.at(old));
             }
         }
-        (disk.largest, disk.room) = (self.largest, f64::NEG_INFINITY);
+        disk.largest = self.largest;
         disk
     }
 
@@ -161,16 +135,7 @@ impl Disk {
             });
             four.felt = [0.0; 4];
         }
-        if !self.fixed.is_pair {
-            self.seen.steps = self.seen.steps.saturating_add(1);
-            self.has_moved(total(moved));
-        }
-    }
-
-    /// Records that no blade has turned by more than `change` \[rad\].
-    fn has_moved(&mut self, change: f64) {
-        self.seen.slack += change;
-        self.room -= change;
+        self.seen.slack += total(moved);
     }
 
     /// Adds the torques of the extra springs.
@@ -254,12 +219,12 @@ impl Disk {
     /// Returns the angle of row `a` caused by a unit torque on row `b` in one step
     /// \[rad/(N m)\].
     #[inline]
-    pub fn compliance(&self, a: usize, b: usize) -> f64 {
+    pub fn compliance(&self, a: &Row, b: &Row) -> f64 {
         if self.fixed.is_pair {
-            let [[c, s], [p, q]] = [a, b].map(|row| self.shape_of(row));
+            let [[c, s], [p, q]] = [a.shape, b.shape];
             return self.modes.first().map_or(0.0, |four| four.compliance[0]) * (c * p + s * q);
         }
-        if let Some(influence) = self.fixed.influence.get(a.abs_diff(b)) {
+        if let Some(influence) = self.fixed.influence.get(a.index.abs_diff(b.index)) {
             return *influence;
         }
         0.0
@@ -267,19 +232,19 @@ impl Disk {
 
     /// Corrects the predicted step by a torque on a row, Eq. (13b).
     #[inline]
-    pub fn turn(&mut self, row: usize, torque: f64) {
+    pub fn turn(&mut self, row: &Row, torque: f64) {
         let Self { modes, fixed, .. } = self;
         if fixed.is_pair {
-            let [c, s] = fixed.rows.table().get(row).map_or([0.0; 2], |shape| [shape[0], shape[1]]);
             let Some(four) = modes.first_mut() else { return };
-            for (k, shape) in [c, s].into_iter().enumerate() {
+            for (k, shape) in row.shape.into_iter().enumerate() {
                 let change = four.compliance[k] * shape * torque;
                 four.x[k] += change;
                 four.increment[k] += change;
             }
+            self.seen.slack += four.compliance[0] * torque.abs();
             return;
         }
-        let shapes: Cow<'_, [Four]> = fixed.rows.row(row);
+        let shapes: Cow<'_, [Four]> = fixed.rows.row(row.index);
         for (four, shape) in modes.iter_mut().zip(shapes.iter()) {
             (0..4).for_each(|k| {
                 let change = four.compliance[k] * shape[k] * torque;
@@ -287,8 +252,7 @@ impl Disk {
                 four.increment[k] += change;
             });
         }
-        let change = fixed.most_turned * torque.abs();
-        self.has_moved(change);
+        self.seen.slack += fixed.most_turned * torque.abs();
     }
 
     /// Sets the increase of the squared blade frequencies over those at standstill \[rad^2/s^2\].
@@ -297,7 +261,7 @@ impl Disk {
         let before = self.energy();
         let oscillators = Arc::make_mut(&mut self.oscillators);
         for (m, (oscillator, still)) in oscillators.iter_mut().zip(&self.fixed.still).enumerate() {
-            oscillator.stiffen(still + added * oscillator.mass);
+            oscillator.stiffen((still + added) * oscillator.mass);
             self.modes[m / 4].pull[m % 4] = oscillator.pull;
         }
         self.energy() - before
@@ -306,7 +270,7 @@ impl Disk {
     /// Multiplies every angle by `part`; rates do not change.
     pub fn shrink(&mut self, part: f64) {
         self.modes.iter_mut().for_each(|four| four.x.iter_mut().for_each(|x| *x *= part));
-        (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
+        self.seen = Seen::NOTHING;
     }
 
     /// Returns `[alpha_c, alpha_s]` \[rad\].
@@ -386,6 +350,7 @@ impl Disk {
         for (m, at) in coordinates.into_iter().enumerate().take(self.oscillators.len()) {
             self.put(m, at);
         }
+        self.seen = Seen::NOTHING;
     }
 
     /// Returns whether its modes are independent of each other.
@@ -403,10 +368,7 @@ impl Disk {
         for m in 0..self.oscillators.len() {
             self.put(m, self.oscillators[m].fly(self.at(m), steps));
         }
-        if !self.fixed.is_pair {
-            (self.seen.slack, self.seen.steps) = (f64::INFINITY, u32::MAX);
-            self.room = f64::NEG_INFINITY;
-        }
+        self.seen = Seen::NOTHING;
     }
 
     /// Sets the coordinate of a mode.

@@ -7,7 +7,6 @@
 
 use std::sync::Arc;
 
-use super::angles::ANGLE_LOOK;
 use super::drive::EngineOrderTorque;
 use super::oscillator::Oscillator;
 use super::shapes::{Label, Shapes};
@@ -15,15 +14,11 @@ use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
 use crate::numeric::normal::normals;
 use crate::scene::{ModelSize, Scene};
 
-/// Displacement of a single tip, as a part of the clearance, after which all blade angles are
-/// evaluated. Speed only.
-const TIP_SLACK: f64 = 0.02;
-
 /// Data that is constant during a run.
 #[derive(Debug)]
 pub(super) struct Fixed {
     pub labels: Vec<Label>,
-    /// Stiffness of each mode at rest \[N m/rad\].
+    /// Squared frequency of each mode at standstill \[rad^2/s^2\].
     pub still: Vec<f64>,
     /// Shapes at blades that differ, and at rows.
     pub blades: Arc<Shapes>,
@@ -43,14 +38,11 @@ pub(super) struct Fixed {
     pub springs: Vec<f64>,
     /// Modes and signs of `alpha_c` and `alpha_s`.
     pub shown: [Option<(usize, f64)>; 2],
-    /// Largest number of steps between two evaluations of all blade angles.
-    pub steps_unseen: u32,
-    /// Change of an angle after which all blade angles are evaluated \[rad\].
-    pub most_slack: f64,
 }
 
 impl Fixed {
-    pub fn new(scene: &Scene, machine: &Machine, most_alike: u32) -> Self {
+    /// Creates them with the oscillators of the modes.
+    pub fn new(scene: &Scene, machine: &Machine, most_alike: u32) -> (Self, Vec<Oscillator>) {
         let (disk, polygon) = (&scene.disk_in_use(), &machine.polygon);
         let (blades, group) = (polygon.blades, polygon.blades_per_side);
         let diameters = disk.diameters_beside(polygon.nodal_diameters);
@@ -91,19 +83,30 @@ impl Fixed {
         } else {
             Arc::new(Shapes::new(&labels, blades, per_row, blades / per_row, false))
         };
-        let still = labels.iter().map(|label| {
-            let mass = if label.is_alone { 1.0 } else { 0.5 } * f64::from(blades);
-            let omega = blade_frequency(disk, label.diameters);
-            omega * omega * mass * disk.inertia_kg_m2
-        });
-        Self {
-            still: still.collect(),
+        let oscillators = oscillators(scene, machine, &labels);
+        // A torque on row 0 or on blade 0, felt by the modes; the disk is the same from any row.
+        let turned = |shapes: &Shapes| {
+            let first = shapes.row(0);
+            members.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
+        };
+        let (mut influence, mut most_turned) = (Vec::new(), 0.0);
+        if !is_pair {
+            most_turned = turned(&members).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
+            let (turned, count) = (turned(&rows), rows.count());
+            let mean = |row: usize| {
+                let each = (0..per_row as usize).map(|k| turned[(row + k * count) % turned.len()]);
+                each.sum::<f64>() / f64::from(per_row)
+            };
+            influence = (0..count).map(mean).collect();
+        }
+        let fixed = Self {
+            still: labels
+                .iter()
+                .map(|mode| blade_frequency(disk, mode.diameters).powi(2))
+                .collect(),
             shown: match is_pair {
-                true => shown(&labels, blades, diameters, true, machine.has_sine_mode),
-                false => {
-                    let diameters = polygon.nodal_diameters;
-                    shown(&labels, blades, diameters, false, machine.has_sine_mode)
-                }
+                true => [0, 1].map(|m| (m < labels.len()).then_some((m, 1.0))),
+                false => shown(&labels, blades, polygon.nodal_diameters),
             },
             labels,
             blades: members,
@@ -112,53 +115,36 @@ impl Fixed {
             per_row,
             phases: ContactPolygon::new(blades, diameters, 1.0),
             is_pair,
-            influence: Vec::new(),
-            most_turned: 0.0,
+            influence,
+            most_turned,
             springs,
-            steps_unseen: 0,
-            most_slack: TIP_SLACK * machine.clearance().abs()
-                / (machine.radial_coupling * machine.blade_length).abs(),
-        }
+        };
+        (fixed, oscillators)
     }
+}
 
-    /// Adds what follows from the oscillators, of which the fastest turns by `turn` in a step.
-    pub fn looked_at(mut self, turn: f64, oscillators: &[Oscillator]) -> Self {
-        self.steps_unseen = (ANGLE_LOOK / turn).clamp(1.0, 1e9) as u32;
-        if self.is_pair {
-            return self;
-        }
-        // A torque on row 0 or on blade 0, felt by the modes; the disk is the same from any row.
-        let of = |shapes: &Shapes| {
-            let first = shapes.row(0);
-            self.blades.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
-        };
-        self.most_turned = of(&self.blades).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
-        let (turned, rows) = (of(&self.rows), self.rows.count());
-        let mean = |row: usize| {
-            let each = (0..self.per_row as usize).map(|k| turned[(row + k * rows) % turned.len()]);
-            each.sum::<f64>() / f64::from(self.per_row)
-        };
-        self.influence = (0..rows).map(mean).collect();
-        self
-    }
+/// Returns the oscillators of modes.
+fn oscillators(scene: &Scene, machine: &Machine, labels: &[Label]) -> Vec<Oscillator> {
+    let (disk, step) = (&scene.disk_in_use(), scene.solver.step_s);
+    let oscillator = |label: &Label| {
+        let blades = if label.is_alone { 1.0 } else { 0.5 } * f64::from(disk.blades);
+        let (mass, omega) = (blades * disk.inertia_kg_m2, blade_frequency(disk, label.diameters));
+        let stiffness = (omega.powi(2) + machine.stiffened_by()) * mass;
+        Oscillator::new(mass, 2.0 * disk.damping_ratio * omega * mass, stiffness, step)
+    };
+    labels.iter().map(oscillator).collect()
 }
 
 /// Returns the modes of `alpha_c` and `alpha_s` with their signs: more diameters than half of the
 /// blades are those of fewer, seen from blade to blade.
-fn shown(
-    labels: &[Label],
-    blades: u32,
-    diameters: u32,
-    is_pair: bool,
-    has_sine: bool,
-) -> [Option<(usize, f64)>; 2] {
-    let alias = if is_pair { diameters } else { diameters % blades };
-    let folded = if is_pair { alias } else { alias.min(blades - alias) };
+fn shown(labels: &[Label], blades: u32, diameters: u32) -> [Option<(usize, f64)>; 2] {
+    let alias = diameters % blades;
+    let folded = alias.min(blades - alias);
     let find = |is_sine: bool| {
         labels.iter().position(|label| label.diameters == folded && label.is_sine == is_sine)
     };
     let sign = if alias == folded { 1.0 } else { -1.0 };
-    [find(false).map(|m| (m, 1.0)), find(true).filter(|_| has_sine).map(|m| (m, sign))]
+    [find(false).map(|m| (m, 1.0)), find(true).map(|m| (m, sign))]
 }
 
 /// Returns the stiffness of each blade beyond `k_b`, `sd x_i k_b` with `x_i` standard normal less

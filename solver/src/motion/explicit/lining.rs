@@ -7,13 +7,13 @@
 
 use super::Explicit;
 use super::disk::{Disk, total};
-use super::lasting::mark;
 use super::record::Record;
 use super::row::SERIES_PHASE;
 use super::row::SHORT_SERIES_PHASE;
 use super::row::{Tip, TipLaw, Tips, series, short_series};
 use super::shapes::Four;
 use crate::model::LiningLaw;
+use crate::motion::lasting::mark;
 use crate::motion::{ActiveSet, Plane, across};
 
 /// State of the lining: its indentation and its pushes.
@@ -56,8 +56,11 @@ struct Rows {
 /// Sums over the rows of a step.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
-    /// Pushes along the normals, without friction \[N\].
+    /// Pushes along the normals, without friction, their sizes \[N\], and the torques on all rows
+    /// \[N m\].
     force: Plane,
+    push: f64,
+    torque: f64,
     /// Modal torques on a pair of modes \[N m\].
     felt: [f64; 2],
     deepest: f64,
@@ -209,6 +212,7 @@ impl Lining {
         let TipLaw { clearance, diameters, pushed, rise, .. } = *tips;
         let look = phase * (z.re.abs() + z.im.abs()) + out_of_round - clearance;
         let [mut x, mut y, mut felt_c, mut felt_s, mut deepest] = [[0.0_f64; 4]; 5];
+        let [mut pushed_by, mut turned_by] = [[0.0; 4]; 2];
         let mut changed = [0_u64; 4];
         let presses = |depth: f64| if depth > 0.0 { u64::MAX } else { 0 };
         let torques = self.torques.as_chunks_mut::<4>().0.iter_mut();
@@ -249,6 +253,8 @@ impl Lining {
             }
             for k in 0..4 {
                 four.impulse[k] += push[k];
+                pushed_by[k] += push[k];
+                turned_by[k] += torque[k];
                 felt_c[k] += p[k] * torque[k];
                 felt_s[k] += q[k] * torque[k];
                 changed[k] |= presses(depth[k]) ^ presses(before[k]);
@@ -257,6 +263,8 @@ impl Lining {
         }
         Sums {
             force: Plane::new(total(x), total(y)),
+            push: total(pushed_by),
+            torque: total(turned_by),
             felt: [total(felt_c), total(felt_s)],
             deepest: deepest.into_iter().fold(0.0, f64::max),
             changed: changed != [0; 4],
@@ -331,15 +339,10 @@ impl Explicit {
 
     /// Records the pushes of the lining at the latest step. Returns whether there are any.
     fn keep_pressed(&mut self) -> bool {
-        let t = self.drive.time_of(self.n);
         let Some(lining) = self.lining.as_ref().filter(|lining| lining.presses()) else {
             return false;
         };
-        self.record.touch(self.n, lining.sides, false);
-        let since = self.lasting.touch(t, lining.set, lining.all);
-        if lining.sides == ActiveSet::Many {
-            self.record.log.since = since;
-        }
+        self.keep_contact(lining.sides, false, lining.set, lining.all);
         true
     }
 
@@ -357,10 +360,7 @@ impl Explicit {
         else {
             return;
         };
-        let (tips, force) = (&self.tips, lining.sums.force);
-        let each = f64::from(self.disk.rows().1);
-        let pushes = lining.rows(|four| four.depth).map(|(_, depth)| lining.law.push(-depth));
-        let (push, torque) = (each * pushes.sum::<f64>(), lining.torques.iter().sum::<f64>());
+        let (tips, Sums { force, push, torque, .. }) = (&self.tips, lining.sums);
         let turned = self.drive.speed(self.n - 1) * self.drive.step;
         self.ledger.sums.growth_work_j += 0.5 * push * self.lost_clearance();
         self.ledger.sums.rotor_work_j -= (torque + tips.pushed * push) * turned;
@@ -370,6 +370,7 @@ impl Explicit {
         let [c, s] = self.moved();
         let moved = Plane::new(0.5 * c, 0.5 * s) * lining.turn.conj();
         let along = across(force, moved);
+        let each = f64::from(self.disk.rows().1);
         let rows = lining.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0);
         let bent: f64 = rows
             .map(|(row, depth)| {

@@ -7,7 +7,7 @@
 //! `angles` (the blades as oscillators, their shapes, and how far they turn), `row` (gap and
 //! directions of a tip), `step` (section 4.2 of the paper line by line), `lining` (a push by the gap
 //! in place of the multiplier), `stride_map` and `strides` (many steps at once); then `drive`,
-//! `record` and `lasting` (the drive of a motion, and the records of it), `changes` (a machine that
+//! `record` (the drive of a motion, and its record), `changes` (a machine that
 //! changes during the run), `rest` and `proofs` (verdicts before the end). `solver` combines them.
 
 mod angles;
@@ -15,7 +15,6 @@ mod changes;
 mod disk;
 mod drive;
 mod fixed;
-mod lasting;
 mod lining;
 mod oscillator;
 mod proofs;
@@ -30,14 +29,13 @@ mod strides;
 
 use std::sync::{Arc, OnceLock};
 
+use super::lasting::Lasting;
 use super::{Failure, Plane, across};
 use crate::model::Machine;
 use crate::numeric::lcp::Lcp;
-use crate::scene::{CheckedScene, ContactLaw, ModelSize};
-use angles::ANGLE_LOOK;
+use crate::scene::{CheckedScene, ContactLaw};
 use disk::Disk;
 use drive::Drive;
-use lasting::Lasting;
 use lining::Lining;
 use oscillator::{Coordinate, Oscillator};
 use record::{Ledger, Record};
@@ -62,9 +60,8 @@ pub(super) struct Explicit {
     /// Increments of the casing in the step before the last \[m\].
     before: [f64; 2],
     disk: Disk,
-    /// Tip law at the present rotor speed, and whether its friction is that of backward rotation.
+    /// Tip law at the present rotor speed.
     tips: TipLaw,
-    backward: bool,
     tips_of_rows: Arc<Tips>,
     /// Rotation of the casing's lobes at the latest contact.
     lobe_turn: Plane,
@@ -82,11 +79,10 @@ pub(super) struct Explicit {
     /// consecutive such steps.
     long_step: f64,
     long_steps: u32,
-    /// Next step at which the tip swing is recorded, and the steps between two records.
+    /// Next step at which the tip swing is recorded.
     next_look: u64,
-    steps_unseen: u64,
     record: Record,
-    lasting: Lasting,
+    pub(super) lasting: Lasting,
     ledger: Ledger,
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
@@ -121,7 +117,6 @@ impl Explicit {
             restitution: scene.contact.restitution,
             lining: scene.lining().map(|law| Lining::new(law, &tips_of_rows, &disk)),
             tips: TipLaw::at(&machine, speed),
-            backward: speed < 0.0,
             tips_of_rows: Arc::new(tips_of_rows),
             lobe_turn: Plane::new(1.0, 0.0),
             record: Record::of(machine.polygon.sides, drive.step),
@@ -141,7 +136,6 @@ impl Explicit {
             long_step: long_step(scene, &machine),
             long_steps: 0,
             next_look: 0,
-            steps_unseen: steps_unseen(scene, &machine),
             rest: OnceLock::new(),
             strides: Strides::default(),
             stride_began: None,
@@ -175,7 +169,8 @@ impl Explicit {
     /// Returns the row of a tip, for the casing at `z` and the blades as they are.
     #[inline(always)]
     fn row(&self, index: usize, z: Plane) -> Row {
-        self.tips_of_rows.row(index, z, self.disk.angle(index), self.lobe_turn, &self.tips)
+        let (shape, angle) = (self.disk.shape_of(index), self.disk.angle(index));
+        Row { shape, ..self.tips_of_rows.row(index, z, angle, self.lobe_turn, &self.tips) }
     }
 
     /// Turns the friction of the tips at the latest step with the rotor.
@@ -183,8 +178,7 @@ impl Explicit {
     fn turn_friction(&mut self) {
         if self.machine.friction != 0.0 {
             let speed = self.drive.speed(self.n);
-            if (speed < 0.0) != self.backward {
-                self.backward = speed < 0.0;
+            if (speed < 0.0) != (self.tips.friction < 0.0) {
                 self.tips = TipLaw::at(&self.machine, speed);
             }
         }
@@ -236,13 +230,4 @@ fn long_step(scene: &CheckedScene, machine: &Machine) -> f64 {
     let side = 2.0 * machine.clearance() * machine.polygon.delta.tan();
     let is_limited = machine.polygon.has_corners() && scene.goes_beyond();
     if is_limited { LONG_STEP * side } else { f64::INFINITY }
-}
-
-/// Returns the number of steps between two records of the tip swing.
-fn steps_unseen(scene: &CheckedScene, machine: &Machine) -> u64 {
-    let fastest = match scene.solver.model {
-        ModelSize::Full => machine.omega_bd_max,
-        ModelSize::Rigid | ModelSize::Modal => machine.omega_bd,
-    };
-    ((ANGLE_LOOK / (fastest * scene.solver.step_s)) as u64).max(1)
 }

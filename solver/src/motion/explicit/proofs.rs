@@ -107,7 +107,8 @@ impl Explicit {
         let rest = 2.0 * torque / self.scene.disk_in_use().stiffness_nm_per_rad;
         let phase = machine.nodal_diameters * (self.disk.reach() + rest);
         let change = 2.0 * phase * rates * rates * machine.casing_mass * distance / sin_half;
-        let inertia = arm * (arm + tips.pushed.abs()) * self.disk.compliance(0, 0);
+        let own = self.rows.first().map_or(0.0, |row| self.disk.compliance(row, row));
+        let inertia = arm * (arm + tips.pushed.abs()) * own;
         let light = inertia < LIGHT_BLADES * self.casing.compliance;
         let certain = light && least > CERTAIN_PUSH * machine.push_scale(nu);
         let verdict = if a > 0.0 || b > 0.0 { Verdict::Adhesive } else { Verdict::Locked };

@@ -82,6 +82,8 @@ pub(super) struct Row {
     pub apart: f64,
     /// Multiplier; negative is a push \[N\].
     pub lambda: f64,
+    /// Shapes of a pair of modes at its blades.
+    pub shape: [f64; 2],
 }
 
 impl Row {
@@ -217,7 +219,7 @@ impl Tips {
         let [shape, steep] = self.shape(index, angle, lobe_turn);
         let gap = tips.clearance - longer + shape - tips.rise * angle + dot(normal, z);
         let arm = tips.diameters * across(normal, z) + steep;
-        Row { index, side, normal, gap, arm, apart: gap, lambda: 0.0 }
+        Row { index, side, normal, gap, arm, apart: gap, lambda: 0.0, shape: [0.0; 2] }
     }
 }
 

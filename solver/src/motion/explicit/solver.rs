@@ -1,6 +1,5 @@
 //! The common solver interface of the explicit solver: advance, observe, change.
 
-use super::lasting::Surface;
 use super::strides::Stride;
 use super::{Coordinate, Disk, Explicit};
 use crate::model::Machine;
@@ -136,26 +135,14 @@ impl Solver for Explicit {
 
     fn lasting(&self, window: f64) -> Verdict {
         let (log, now) = (&self.record.log, self.t_s());
-        let clearance = self.machine.clearance();
-        let lining = self.lining.is_some();
-        let surface = Surface {
-            lining,
-            uneven_tips: self.machine.has_unequal_tips(),
-            lobes_rub: lining && self.machine.out_of_round() > clearance.abs(),
-        };
         // A beat that lifts blades must be over within another run.
         let rests = || Some(self.rest()?.rate > 0.0 && self.stays_linear(now)?);
-        let verdict = self.lasting.verdict(log, now, window, clearance, surface, rests);
-        verdict.unless_forced(&self.machine, log, now - window)
+        self.lasting.verdict(&self.machine, log, [now, window], rests)
     }
 
     fn rest_rate(&self) -> Option<f64> {
         let rest = self.rest()?;
         (self.stays_linear(0.0) == Some(true)).then_some(rest.rate)
-    }
-
-    fn swing(&self) -> f64 {
-        self.lasting.swing()
     }
 
     fn pulse(&self) -> &Pulse {

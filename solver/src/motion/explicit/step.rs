@@ -13,9 +13,12 @@
 //! (`lining`).
 
 use super::Explicit;
-use super::lasting::mark;
-use super::row::{Row, Tip};
+use super::angles::ANGLE_LOOK;
+use super::disk::Disk;
+use super::oscillator::Oscillator;
+use super::row::{Row, Tip, TipLaw};
 use crate::motion::failure::MOST_ROWS;
+use crate::motion::lasting::mark;
 use crate::motion::{ActiveSet, FailureReason, Plane, dot};
 use crate::numeric::lcp;
 
@@ -37,6 +40,13 @@ const MOST_LONG_STEPS: u32 = 2000;
 /// -1 at rest. Larger: a step that penetrates between them is blamed instead.
 const SIDES_TOGETHER: f64 = -0.5;
 
+/// Returns how far a unit multiplier of `b` closes the gap of `a`, an entry of `W` \[m/N\].
+#[inline(always)]
+fn joint(casing: &Oscillator, disk: &Disk, tips: &TipLaw, a: &Row, b: &Row) -> f64 {
+    casing.compliance * dot(a.normal, tips.push_on_casing(b.normal))
+        + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a, b)
+}
+
 /// What is known of the tips around the casing.
 struct Near {
     /// How far the deepest is beyond its target \[m\].
@@ -46,6 +56,10 @@ struct Near {
     /// Deepest penetration of tips without a row \[m\].
     dip: f64,
 }
+
+/// Displacement of a single tip, as a part of the clearance, after which all blade angles of a full
+/// disk are evaluated. Speed only.
+const TIP_SLACK: f64 = 0.02;
 
 impl Explicit {
     /// Takes one step.
@@ -205,7 +219,8 @@ impl Explicit {
         if self.disk.is_pair() {
             return rise * self.disk.angle(row);
         }
-        let (angles, slack) = self.disk.seen();
+        let slack = TIP_SLACK * (self.tips.clearance / rise).abs();
+        let (angles, slack) = self.disk.angles_within(slack);
         rise * angles[row % angles.len()] + rise.abs() * slack
     }
 
@@ -224,7 +239,8 @@ impl Explicit {
         // Of the blades of a side that turn alike only the deepest can hold.
         let alone =
             self.tips_of_rows.sides.is_empty() && (self.tips.rise == 0.0 || self.disk.is_pair());
-        match self.rows.iter_mut().find(|known| alone && known.side == row.side) {
+        let known = if alone { self.rows.iter_mut().find(|it| it.side == row.side) } else { None };
+        match known {
             Some(known) if row.apart < known.apart => *known = row,
             Some(_) => {}
             None => self.rows.push(row),
@@ -239,12 +255,7 @@ impl Explicit {
         if count > MOST_ROWS && (law.pulls() || tips.rise != 0.0) {
             return Err(FailureReason::Rows { rows: count });
         }
-        // How far a unit multiplier of `b` closes the gap of `a`.
-        let entry = |a: &Row, b: &Row| {
-            let push = tips.push_on_casing(b.normal);
-            casing.compliance * dot(a.normal, push)
-                + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a.index, b.index)
-        };
+        let entry = |a: &Row, b: &Row| joint(casing, disk, tips, a, b);
         match &mut rows[..] {
             [row] => row.lambda = row.apart / entry(row, row),
             [a, b] => {
@@ -285,7 +296,7 @@ impl Explicit {
         for row in rows.iter().filter(|row| row.lambda != 0.0) {
             let torque = row.torque(tips);
             shift -= tips.push_on_casing(row.normal) * (casing.compliance * row.lambda);
-            disk.turn(row.index, torque);
+            disk.turn(row, torque);
             turned += torque.abs();
             record.push(*n, row.side, row.lambda);
             sides = sides.with(row.side);
@@ -308,8 +319,12 @@ impl Explicit {
         if sides == ActiveSet::Nothing {
             return self.end_contact_after_pause();
         }
+        self.keep_contact(sides, pulls, set, count == self.tips_of_rows.rows.len());
+    }
+
+    /// Records which rows touch at the latest step.
+    pub(super) fn keep_contact(&mut self, sides: ActiveSet, pulls: bool, set: u64, all: bool) {
         self.record.touch(self.n, sides, pulls);
-        let all = count == self.tips_of_rows.rows.len();
         let since = self.lasting.touch(self.drive.time_of(self.n), set, all);
         if sides == ActiveSet::Many {
             self.record.log.since = since;
@@ -380,7 +395,8 @@ impl Explicit {
         if self.n < self.next_look {
             return;
         }
-        self.next_look = self.n + self.steps_unseen;
+        let turn = self.machine.omega_bd_max * self.drive.step;
+        self.next_look = self.n + ((ANGLE_LOOK / turn) as u64).max(1);
         let swing = self.tip_swing();
         self.lasting.look(self.drive.time_of(self.n), Plane::default(), Plane::default(), swing);
     }

@@ -1,10 +1,14 @@
-//! Contact state over the last part of a run beyond the paper's model, recorded during the run as
-//! the basis of its verdict (docs/theory.md, section 10).
+//! Verdict over the last part of a run, from its contacts and from the swing of the tips and the
+//! motion of the casing that are recorded during the run (docs/theory.md, sections 9 and 10).
 
-use crate::motion::LAST_PART;
-use crate::motion::solver::WHIRL_SWING;
-use crate::motion::verdict::Trend;
-use crate::motion::{ActiveSet, ContactLog, Plane, Verdict};
+use super::verdict::Trend;
+use super::{ActiveSet, ContactLog, LAST_PART, Plane, Verdict};
+use crate::model::Machine;
+
+/// Swing of the blade tips, as a part of the clearance, above which a slip is a whirl:
+/// blades that move contact rather than follow it. Smaller: blades that friction shakes
+/// count.
+const WHIRL_SWING: f64 = 0.25;
 
 /// Part of the clearance below which a wave on a lining is at rest.
 const WAVE_AT_REST: f64 = 1e-3;
@@ -54,17 +58,6 @@ impl Stretch {
         let [a, b, ..] = self.ends.map(|(low, high)| 0.5 * (low + high));
         a.hypot(b)
     }
-}
-
-/// Properties of the surfaces in contact that the verdict depends on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Surface {
-    /// Whether the casing has a lining.
-    pub lining: bool,
-    /// Whether tips have their own lengths.
-    pub uneven_tips: bool,
-    /// Whether lobes of the casing rub where others do not.
-    pub lobes_rub: bool,
 }
 
 fn half((low, high): (f64, f64)) -> f64 {
@@ -160,22 +153,31 @@ impl Lasting {
         self.trends.iter_mut().for_each(|trend| trend.set_end(t, end));
     }
 
-    /// The verdict over the last `window` seconds, of a machine with this clearance and
-    /// surface. Where its motion about rest is linear and known, that decides by `comes_to_rest`,
-    /// whatever the wave did in so short a time.
+    /// Returns the verdict at time `now` over the last `window` seconds. Where the motion about rest
+    /// on a lining is linear and known, that decides by `comes_to_rest`, whatever the wave did in so
+    /// short a time.
     pub fn verdict(
         &self,
+        machine: &Machine,
         log: &ContactLog,
-        now: f64,
-        window: f64,
-        clearance: f64,
-        surface: Surface,
+        [now, window]: [f64; 2],
         comes_to_rest: impl FnOnce() -> Option<bool>,
     ) -> Verdict {
-        let Surface { lining, uneven_tips, lobes_rub } = surface;
         let start = now - window;
+        self.of_contacts(machine, log, [now, start], comes_to_rest)
+            .unless_forced(machine, log, start)
+    }
+
+    /// As [`verdict`](Self::verdict), without a look at longer tips in contact.
+    fn of_contacts(
+        &self,
+        machine: &Machine,
+        log: &ContactLog,
+        [now, start]: [f64; 2],
+        comes_to_rest: impl FnOnce() -> Option<bool>,
+    ) -> Verdict {
         let lasted = |since: Option<f64>| since.is_some_and(|t| t <= start);
-        let size = clearance.abs();
+        let (size, lining) = (machine.clearance().abs(), machine.lining.is_some());
         let swing = self.trends[0].falls_to(self.swing()).unwrap_or_else(|| self.swing());
         let whirls = swing > WHIRL_SWING * size;
         if !lasted(log.unbroken_since) {
@@ -201,6 +203,7 @@ impl Lasting {
             ActiveSet::Nothing => false,
         };
         let still = !young && self.largest_wave() < WAVE_AT_REST * size;
+        let lobes_rub = lining && machine.out_of_round() > size;
         if lobes_rub && still && self.now.wave() < self.before.wave() {
             // Lobes press on arcs at rest, too.
             return Verdict::Decay;
@@ -209,14 +212,16 @@ impl Lasting {
             let known = if self.moves(size) { comes_to_rest() } else { None };
             match (known.unwrap_or(dies), whirls) {
                 // Longer tips drag the wave round with the rotor.
-                (true, _) if uneven_tips && stretch.centre() > WAVE_AT_REST * size => {
+                (true, _)
+                    if machine.has_unequal_tips() && stretch.centre() > WAVE_AT_REST * size =>
+                {
                     Verdict::Forced
                 }
                 (true, _) => Verdict::Decay,
                 (false, true) => Verdict::Whirl,
                 (false, false) => Verdict::Slip,
             }
-        } else if held && self.set_since <= start {
+        } else if held && self.set_since.max(log.since) <= start {
             let pulled = log.last_tensile.is_some_and(|t| t >= start);
             if pulled { Verdict::Adhesive } else { Verdict::Locked }
         } else if whirls {
