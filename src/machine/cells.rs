@@ -16,7 +16,7 @@ pub(super) struct Cells {
 /// Splits the bytes of a file into records. Comment lines begin with `#`.
 ///
 /// The separator is that of a first line `sep=;`, otherwise the first of semicolon, tab and bar
-/// that two lines contain (a title has no cells), otherwise the comma.
+/// that the last line contains (a title before the names has no cells), otherwise the comma.
 ///
 /// # Errors
 /// The bytes are no text.
@@ -27,9 +27,9 @@ pub(super) fn cells(bytes: &[u8]) -> Result<Cells, TableError> {
     let named = named.and_then(|_| first.as_bytes().get(4).copied());
     // As a comment, the line keeps its place in the count of lines.
     let text = if named.is_some() { format!("#{text}") } else { text };
-    let lines = || text.lines().filter(|line| !line.starts_with('#')).map(str::as_bytes);
-    let in_two = |c: &u8| lines().filter(|line| line.contains(c)).nth(1).is_some();
-    let found = || [b';', b'\t', b'|'].into_iter().find(in_two).unwrap_or(b',');
+    let last = text.lines().rfind(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let contained = |c: &u8| last.unwrap_or_default().as_bytes().contains(c);
+    let found = || [b';', b'\t', b'|'].into_iter().find(contained).unwrap_or(b',');
     let separator = named.unwrap_or_else(found);
     let mut reader = csv::ReaderBuilder::new();
     reader.delimiter(separator).comment(Some(b'#')).flexible(true).trim(csv::Trim::All);
