@@ -42,7 +42,7 @@ use record::{Ledger, Record};
 use rest::Rest;
 use row::{Row, TipLaw, Tips};
 use step::LONG_STEP;
-use strides::Strides;
+use strides::{Stride, Strides};
 
 /// The explicit solver of one scene, at some step.
 #[derive(Clone, Debug)]
@@ -87,8 +87,8 @@ pub(super) struct Explicit {
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
     strides: Strides,
-    /// The motion at the start of the stride that contains the latest step.
-    stride_began: Option<Box<Explicit>>,
+    /// The stride that contains the latest step, and the motion at its start.
+    stride_began: Option<Box<(Explicit, Stride)>>,
     /// Step of the latest change during the run.
     changed: u64,
     /// Number of steps that were not computed one by one, but many at once by strides.

@@ -33,10 +33,10 @@ impl Explicit {
     }
 
     /// Goes to a step inside of a stride or at its end.
-    fn look_into(&mut self, stride: &Stride, target: u64) {
-        let began = Box::new(self.clone());
-        self.see_stride(stride, target - self.n);
-        self.stride_began = Some(began);
+    fn look_into(&mut self, stride: Stride, target: u64) {
+        let began = self.clone();
+        self.see_stride(&stride, target - self.n);
+        self.stride_began = Some(Box::new((began, stride)));
     }
 
     /// Returns to the start of the stride that contains the latest step; forces already reported stay
@@ -57,8 +57,11 @@ impl Solver for Explicit {
         if self.n >= target {
             return Ok(true);
         }
-        if let Some(began) = self.stride_began.take() {
-            self.go_back(*began);
+        let mut begun = None;
+        if let Some(looked_into) = self.stride_began.take() {
+            let (began, stride) = *looked_into;
+            self.go_back(began);
+            begun = Some(stride);
         }
         let steps_unasked = UPDATES_UNASKED / (2 + self.disk.coordinates());
         let mut unasked = 0;
@@ -70,12 +73,12 @@ impl Solver for Explicit {
                     return Ok(false);
                 }
             }
-            let stride = if self.scene.solver.plain { None } else { self.find_stride() };
-            match stride {
+            let found = || if self.scene.solver.plain { None } else { self.find_stride() };
+            match begun.take().or_else(found) {
                 Some(stride) if self.n + stride.steps < target => {
                     self.take_stride(&stride, stride.steps);
                 }
-                Some(stride) => self.look_into(&stride, target),
+                Some(stride) => self.look_into(stride, target),
                 None => self.take_one()?,
             }
         }

@@ -55,6 +55,8 @@ pub(super) const SHORTEST: usize = 3;
 const SMALL_TURN: f64 = 3e-6;
 
 pub(super) type State = SVector<f64, SIZE>;
+/// A state after some steps, and the sums of the pushes \[N\] until then.
+pub(super) type Taken = (State, [f64; HELD]);
 type Square = SMatrix<f64, SIZE, SIZE>;
 type Whole = SVector<f64, WHOLE>;
 type Change = SMatrix<f64, WHOLE, WHOLE>;
@@ -274,23 +276,28 @@ impl StrideMap {
         let stride = |exponent: usize| {
             let (steps, off) = (1_u64 << exponent, speed * self.limits[exponent]);
             let may = steps <= most && off < at_start;
-            let is_safe = may && off < room(&(from + self.change(exponent) * from));
+            let is_safe = may && off < room(&moved(self.change(exponent), &from));
             is_safe.then_some(Safe { steps, sag: self.angle_bend * off })
         };
         (SHORTEST..=LONGEST).rev().find_map(stride)
     }
 
     /// Takes many steps at once. Returns the state after them, and the sums of the pushes \[N\].
-    pub fn take(&self, state: &State, steps: u64) -> (State, [f64; HELD]) {
-        let whole = self.after(state, steps);
-        (whole.fixed_rows::<SIZE>(0) + self.reference, [whole[SIZE + 1], whole[SIZE + 2]])
+    pub fn take(&self, state: &State, steps: u64) -> Taken {
+        self.taken(&self.after(state, steps))
     }
 
-    /// Returns the pushes of the held tips in the last of so many steps \[N\].
-    pub fn last_pushes(&self, state: &State, steps: u64) -> impl Iterator<Item = f64> {
-        // A state that is not rounded to the digits of the reference.
-        let whole = self.after(state, steps - 1);
-        self.pushes.iter().map(move |push| push.by.dot(&whole))
+    /// As [`Self::take`], with the pushes of the held tips in the last step \[N\].
+    pub fn see(&self, state: &State, steps: u64) -> (Taken, [f64; HELD]) {
+        // The pushes follow from a state that is not rounded to the digits of the reference.
+        let before = self.after(state, steps - 1);
+        let mut pushes = [0.0; HELD];
+        pushes.iter_mut().zip(&self.pushes).for_each(|(of, push)| *of = push.by.dot(&before));
+        (self.taken(&moved(self.change(0), &before)), pushes)
+    }
+
+    fn taken(&self, whole: &Whole) -> Taken {
+        (whole.fixed_rows::<SIZE>(0) + self.reference, [whole[SIZE + 1], whole[SIZE + 2]])
     }
 
     /// Returns the deepest predicted penetration of the held tips in the step from a state \[m\].
@@ -305,7 +312,7 @@ impl StrideMap {
     fn after(&self, state: &State, steps: u64) -> Whole {
         let mut whole = self.whole(state);
         for exponent in (0..=LONGEST).filter(|exponent| steps >> exponent & 1 == 1) {
-            whole += self.change(exponent) * whole;
+            whole = moved(self.change(exponent), &whole);
         }
         whole
     }
@@ -326,6 +333,15 @@ impl StrideMap {
         whole[SIZE] = 1.0;
         whole
     }
+}
+
+/// Returns `(1 + change) whole`.
+fn moved(change: &Change, whole: &Whole) -> Whole {
+    let mut sum = Whole::zeros();
+    for (column, x) in change.data.0.iter().zip(whole.iter()) {
+        sum.iter_mut().zip(column).for_each(|(sum, part)| *sum += part * x);
+    }
+    whole + sum
 }
 
 /// Returns `P - 1`, Eq. (10), seen from the frame as it is after the step: against the 1 of `P` a

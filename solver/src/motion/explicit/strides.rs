@@ -14,7 +14,7 @@ use super::Explicit;
 use super::angles::ANGLE_LOOK;
 use super::oscillator::{Coordinate, Oscillator};
 use super::row::Row;
-use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap, modes_of};
+use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap, Taken, modes_of};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Plane, across};
 
@@ -52,6 +52,7 @@ impl Strides {
 }
 
 /// A stride that may be taken, wholly or in part.
+#[derive(Clone, Debug)]
 pub(super) struct Stride {
     pub steps: u64,
     map: Arc<StrideMap>,
@@ -92,29 +93,36 @@ impl Explicit {
 
     /// Takes so many steps of a stride, at least one.
     pub(super) fn take_stride(&mut self, stride: &Stride, steps: u64) {
-        if stride.sag > 0.0 {
-            let [low, high] =
-                [0, steps].map(|step| self.disk.see_pair(self.pair_after(stride, step)));
-            self.see_between(stride, (0, low), (steps, high));
-        }
-        if stride.holds {
-            self.hold(stride, steps);
-        } else {
-            self.fly(steps);
-        }
-        self.skipped += steps;
-        self.disk.watch();
+        self.pass(stride, steps, stride.holds.then(|| stride.map.take(&stride.state, steps)));
     }
 
     /// Takes so many steps of a stride, at least one, and has the pushes of the last of them. What the
     /// map leaves of the gaps would be a false push in a step from here.
     pub(super) fn see_stride(&mut self, stride: &Stride, steps: u64) {
-        self.take_stride(stride, steps);
         if stride.holds {
-            let pushes = stride.map.last_pushes(&stride.state, steps);
+            let (held, pushes) = stride.map.see(&stride.state, steps);
+            self.pass(stride, steps, Some(held));
             // A multiplier is the negative push.
             self.rows.iter_mut().zip(pushes).for_each(|(row, push)| row.lambda = -push);
+        } else {
+            self.pass(stride, steps, None);
         }
+    }
+
+    /// Goes so many steps along a stride, to `held` where tips are held.
+    fn pass(&mut self, stride: &Stride, steps: u64, held: Option<Taken>) {
+        if stride.sag > 0.0 {
+            let end = held.map_or_else(|| self.disk.flown_pair(steps), |(at, _)| modes_of(&at));
+            let [low, high] =
+                [self.pair_after(stride, 0), end].map(|pair| self.disk.see_pair(pair));
+            self.see_between(stride, (0, low), (steps, high));
+        }
+        match held {
+            Some(held) => self.hold(stride, steps, held),
+            None => self.fly(steps),
+        }
+        self.skipped += steps;
+        self.disk.watch();
     }
 
     /// Finds the largest angle of a pair of modes between two steps of a stride, where it is known: an
@@ -209,8 +217,8 @@ impl Explicit {
         self.leave();
     }
 
-    fn hold(&mut self, stride: &Stride, steps: u64) {
-        let (at, sums) = stride.map.take(&stride.state, steps);
+    /// Goes so many steps with tips held, to a state with the sums of their pushes.
+    fn hold(&mut self, stride: &Stride, steps: u64, (at, sums): Taken) {
         self.n += steps;
         let turn = self.drive.turn(self.n) * stride.first;
         let (z, w) = (Plane::new(at[0], at[1]) * turn, Plane::new(at[2], at[3]) * turn);
