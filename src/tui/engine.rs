@@ -332,8 +332,8 @@ pub struct Results {
     pub answer: Option<Arc<Answer>>,
     /// Whether a tiny change of the pulse, the speed or the motion changes the verdict.
     pub sensitive: Sensitive,
-    /// Reference run: the event solver with push-only contact on the same scene.
-    pub reference: Option<FullRun>,
+    /// Verdict of the reference run: the event solver with push-only contact on the same scene.
+    pub reference: Option<Verdict>,
     /// The run under the other contact law.
     pub comparison: Option<FullRun>,
     /// Results of the studies.

@@ -99,7 +99,7 @@ impl App {
     /// Collects the facts for the sentence about a complete run.
     fn facts(&self, run: &FullRun) -> Facts {
         Facts {
-            other: self.results().reference.as_ref().map(|other| other.verdict),
+            other: self.results().reference,
             certainty: self.results().sensitive.known(),
             ..run.facts.clone()
         }

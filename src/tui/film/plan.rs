@@ -120,7 +120,7 @@ impl FilmPlan {
     /// Returns the reference: the event solver, whose contact only pushes. `None` if the scene uses
     /// the event solver already, has an elastic lining, which is a different machine, or has
     /// something else that the event solver does not support, and for a film with changes.
-    pub fn reference(&self) -> Option<Self> {
+    pub fn reference(&self) -> Option<CheckedScene> {
         let solver = &self.scene.solver;
         if solver.kind == SolverKind::Event
             || solver.contact == ContactLaw::Smooth
@@ -128,8 +128,7 @@ impl FilmPlan {
         {
             return None;
         }
-        let scene = self.scene.as_reference().checked().ok()?;
-        Some(Self { scene, ..self.clone() })
+        self.scene.as_reference().checked().ok()
     }
 }
 

@@ -9,7 +9,9 @@ use crate::tui::engine::{Answer, FORECAST_LIMIT, Order, Pace, Results, SLICE, Se
 use crate::tui::film::{Film, FilmPlan};
 use crate::tui::worker::background::{Job, on_spare_cores};
 use crate::tui::worker::studies::Studies;
-use rubscope_solver::motion::{Certainty, Scripted, Verdict, VerdictReached, certainty};
+use rubscope_solver::motion::{
+    Certainty, Scripted, Verdict, VerdictReached, certainty, run_to_verdict,
+};
 use rubscope_solver::scene::CheckedScene;
 
 /// The films of one order.
@@ -21,12 +23,10 @@ pub struct Films {
     other: Option<Film>,
     /// The film of the pinned run.
     pinned: Option<Film>,
-    /// The reference run; `None` if the scene has none, or the motion was changed.
-    reference: Option<Film>,
     /// Outcome of the sensitivity check; `None` until it is complete or given up.
     sensitive: Option<Sensitive>,
-    /// The sensitivity check; `None` before it starts, which is after the run.
-    sensitivity: Option<Job<Certainty>>,
+    /// The checks; `None` before they start, which is after the run.
+    checks: Option<Job<Checks>>,
     /// The studies for the open views.
     pub studies: Studies,
     answers: Answers,
@@ -39,9 +39,8 @@ impl Films {
             own: Film::new(order.film.clone()),
             other: None,
             pinned: None,
-            reference: None,
             sensitive: None,
-            sensitivity: None,
+            checks: None,
             studies: Studies::default(),
             answers: Answers::default(),
         };
@@ -62,7 +61,7 @@ impl Films {
             if !same_motion {
                 self.answers.turned_on(before, old);
                 let is_changed = !order.film.script.changes().is_empty();
-                self.sensitivity = None;
+                self.checks = None;
                 self.sensitive = is_changed.then_some(Sensitive::Unknown);
             }
         }
@@ -73,7 +72,6 @@ impl Films {
     fn want_others(&mut self, order: &Order) {
         let law = order.compare.then(|| order.film.under_other_law()).flatten();
         self.other = replanned(self.other.take(), law);
-        self.reference = replanned(self.reference.take(), order.film.reference());
         self.pinned = match &order.pinned {
             Some(plan) if self.pinned.is_none() && self.own.plan == *plan => Some(self.own.clone()),
             plan => replanned(self.pinned.take(), plan.clone()),
@@ -88,14 +86,10 @@ impl Films {
         std::iter::once(&mut self.own).chain(&mut self.other).chain(&mut self.pinned)
     }
 
-    fn all(&self) -> impl Iterator<Item = &Film> {
-        let others = [&self.reference, &self.other, &self.pinned].into_iter().flatten();
-        std::iter::once(&self.own).chain(others)
-    }
-
     /// Returns whether any computation is unfinished.
     pub fn is_computing(&self, order: &Order) -> bool {
-        self.all().any(|film| !film.is_done() || !film.page.is_done())
+        let mut films = std::iter::once(&self.own).chain(&self.other).chain(&self.pinned);
+        films.any(|film| !film.is_done() || !film.page.is_done())
             || self.answers.older.is_some()
             || self.sensitive.is_none()
             || self.studies.is_computing(order, &self.own)
@@ -117,7 +111,7 @@ impl Films {
         // The verdict comes first; then the run with the least time so far, so that a quick one
         // does not wait for a slow one.
         let alone = !known && self.own.wall < ALONE;
-        let others = [&mut self.reference, &mut self.other, &mut self.pinned];
+        let others = [&mut self.other, &mut self.pinned];
         let others = others.into_iter().flatten().filter(|_| !alone);
         let films = std::iter::once(&mut self.own).chain(others);
         if let Some(film) = films.filter(|film| !film.is_done()).min_by_key(|film| film.wall) {
@@ -128,12 +122,13 @@ impl Films {
             return;
         }
         if self.sensitive.is_none() {
-            let begin = || Some(sensitivity(&order.scene, self.own.verdict_reached()?));
-            self.sensitivity = self.sensitivity.take().or_else(begin);
-            self.sensitive = match &mut self.sensitivity {
+            let begin = || Some(checks(&self.own.plan, self.own.verdict_reached()?));
+            self.checks = self.checks.take().or_else(begin);
+            self.sensitive = match &mut self.checks {
                 Some(job) => {
                     job.work(SLICE);
-                    let known = job.found.as_deref().copied().map(Sensitive::Known);
+                    let known = job.found.as_ref().and_then(|found| found.certainty);
+                    let known = known.map(Sensitive::Known);
                     known.or(job.is_done().then_some(Sensitive::GivenUp))
                 }
                 // The run itself was given up.
@@ -154,7 +149,7 @@ impl Films {
             verdict: own.verdict(),
             answer: self.answers.latest.clone(),
             sensitive: self.sensitive.unwrap_or_default(),
-            reference: result(&self.reference),
+            reference: self.checks.as_ref().and_then(|job| job.found.as_ref()?.reference),
             comparison: result(&self.other),
             page: own.page.done.clone(),
             comparison_page: page(&self.other),
@@ -181,18 +176,28 @@ fn replanned(film: Option<Film>, plan: Option<FilmPlan>) -> Option<Film> {
     })
 }
 
-/// Starts the sensitivity check in the background: whether a tiny change of the pulse, the speed or
-/// the motion changes the verdict. It sends nothing if it exceeds the time limit.
-fn sensitivity(scene: &CheckedScene, reached: VerdictReached) -> Job<Certainty> {
-    let scene = scene.clone();
+/// What is asked about a run that is complete; `None` for what is not known yet.
+#[derive(Debug)]
+struct Checks {
+    /// The verdict of the reference run; `None` also if there is none.
+    reference: Option<Verdict>,
+    /// Whether a tiny change of the pulse, the speed or the motion changes the verdict.
+    certainty: Option<Certainty>,
+}
+
+/// Starts the checks of a run in the background. What exceeds the time limit is not sent.
+fn checks(plan: &FilmPlan, reached: VerdictReached) -> Job<Checks> {
+    let (scene, reference) = (plan.scene.clone(), plan.reference());
     Job::by(move |to, go_on| {
+        let in_time = |began: Instant| go_on() && began.elapsed() < FORECAST_LIMIT;
         let began = Instant::now();
-        let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
-        let found = on_spare_cores(|| certainty(&scene, reached, true, &go_on));
-        if let Some(certainty) = found {
-            // Sending fails only if the check was dropped.
-            let _ = to.send(certainty);
-        }
+        let run = |scene: &CheckedScene| run_to_verdict(scene, &|| in_time(began));
+        let reference = reference.as_ref().and_then(run).map(|reached| reached.verdict);
+        // Sending fails only if the checks were dropped.
+        let _ = to.send(Checks { reference, certainty: None });
+        let began = Instant::now();
+        let certainty = on_spare_cores(|| certainty(&scene, reached, true, &|| in_time(began)));
+        let _ = to.send(Checks { reference, certainty });
     })
 }
 
@@ -302,21 +307,5 @@ mod tests {
         let latest = films.answers.latest.as_ref();
         assert_eq!(latest.map(|answer| &answer.scene), Some(&quick));
         assert!(films.answers.older.is_none());
-    }
-
-    #[test]
-    fn the_verdict_of_a_run_does_not_wait_for_the_reference() {
-        let scene = Scene::builtin("rub").unwrap().checked().unwrap();
-        let order = order(&scene);
-        let mut films = Films::of(&order);
-        let spent = |films: &Films| films.reference.as_ref().unwrap().wall;
-        while films.own.verdict().is_none() && films.own.wall < ALONE {
-            films.compute(&order);
-            assert!(spent(&films).is_zero());
-        }
-        while films.is_computing(&order) && spent(&films).is_zero() {
-            films.compute(&order);
-        }
-        assert!(!spent(&films).is_zero());
     }
 }
