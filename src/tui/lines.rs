@@ -53,6 +53,18 @@ struct Lines {
     printed_view: Option<ViewId>,
 }
 
+/// The answer to a line.
+enum Reply {
+    /// The end.
+    Quit,
+    /// Why nothing was done.
+    Refused(String),
+    /// These lines.
+    Told(Vec<String>),
+    /// What the command changed or shows; a doubt about it comes first.
+    Done(Option<String>),
+}
+
 /// Executes the commands of `input` until it ends or one of them quits. `prompt` says whether a
 /// prompt is printed before each.
 ///
@@ -147,103 +159,87 @@ impl Lines {
 
     /// Executes a line and prints the answer; returns false if the line quits.
     fn answer(&mut self, line: &str, out: &mut dyn Write) -> Result<bool, Error> {
+        let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
+        let lines = match self.obey(line) {
+            Reply::Quit => return Ok(false),
+            Reply::Refused(why) => vec![format!("refused: {}", self.shown(&why))],
+            Reply::Told(lines) => lines,
+            Reply::Done(doubt) => {
+                self.settle();
+                self.app.check_lesson();
+                self.tell(out)?;
+                let mut lines: Vec<String> = doubt.iter().map(|doubt| self.done(doubt)).collect();
+                if let Some(view) = self.printed_view {
+                    self.app.status = None;
+                    let rows = view.panel().text(&self.app);
+                    lines.extend(rows.lines().map(|row| self.shown(row)));
+                } else {
+                    lines.extend(self.changed(&before));
+                    if self.app.lessons.progress != lesson {
+                        lines.extend(lesson::lesson_text(&self.app, WIDTH));
+                    }
+                }
+                lines
+            }
+        };
+        lines.iter().try_for_each(|line| writeln!(out, "{line}")).map(|()| true)
+    }
+
+    /// Executes a line.
+    fn obey(&mut self, line: &str) -> Reply {
         let (first, rest) = line.split_once(' ').unwrap_or((line, ""));
         if first.starts_with("scene") {
             self.app.files.found = FoundScenes::of(&self.app.files.directory);
         }
         match (first, rest.trim()) {
-            ("help" | "?", words) => return self.help(words, out).map(|()| true),
-            ("scene" | "scenes", "") => return self.list("scene", out).map(|()| true),
-            ("lesson" | "lessons", "") => return self.list("lesson", out).map(|()| true),
+            ("help" | "?", words) => return self.help(words),
+            ("scene" | "scenes", "") => return self.list("scene"),
+            ("lesson" | "lessons", "") => return self.list("lesson"),
             _ => {}
         }
-        let found = match words::only(&self.app, line) {
+        let Found { command, what, .. } = match words::only(&self.app, line) {
             Ok(found) => found,
-            Err(refused) => return self.refuse(&refused, out).map(|()| true),
+            Err(refused) => return Reply::Refused(refused),
         };
-        self.printed_view = match found.command {
-            Command::View(view) => Some(view).filter(|view| PRINTED.contains(view)),
-            Command::Survey | Command::Range { .. } => Some(ViewId::Margins),
-            _ => None,
-        };
-        if self.printed_view.is_none() && needs_screen(&found.command) {
-            let refused = format!("only a screen shows this: {}", found.what);
-            return self.refuse(&refused, out).map(|()| true);
+        let (mut knob, mut doubt) = (None, None);
+        self.printed_view = None;
+        match &command {
+            Command::Leave => return Reply::Quit,
+            Command::View(view) => {
+                self.printed_view = Some(*view).filter(|view| PRINTED.contains(view));
+            }
+            Command::Survey => self.printed_view = Some(ViewId::Margins),
+            Command::Range { doubt: asked, .. } => {
+                (self.printed_view, doubt) = (Some(ViewId::Margins), asked.clone());
+            }
+            Command::Select(place) => knob = KNOBS.get(*place),
+            _ => {}
         }
-        let asked = match &found.command {
-            Command::Range { doubt, .. } => doubt.clone(),
-            _ => None,
-        };
-        let (before, lesson) = (self.app.scene.clone(), self.app.lessons.progress.clone());
+        if self.printed_view.is_none() && needs_screen(&command) {
+            return Reply::Refused(format!("only a screen shows this: {what}"));
+        }
         // A reading cursor would not be visible.
         self.app.stop_reading();
-        self.app.status = None;
-        match self.obey(found, out)? {
-            Some(true) => {}
-            Some(false) => return Ok(true),
-            None => return Ok(false),
-        }
-        self.settle();
-        self.app.check_lesson();
-        self.tell(out)?;
-        if let Some(asked) = asked {
-            writeln!(out, "done: {}", self.spelled(&clean(&asked)))?;
-        }
-        if let Some(view) = self.printed_view {
-            self.app.status = None;
-            let lines = view.panel().text(&self.app);
-            let mut lines = lines.lines().map(|line| self.spelled(&clean(line)));
-            return lines.try_for_each(|line| writeln!(out, "{line}")).map(|()| true);
-        }
-        for line in self.changed(&before) {
-            writeln!(out, "{}", self.spelled(&clean(&line)))?;
-        }
-        if self.app.lessons.progress != lesson {
-            for line in lesson::lesson_text(&self.app, WIDTH) {
-                writeln!(out, "{line}")?;
-            }
-        }
-        Ok(true)
-    }
-
-    /// Executes a command. Returns whether changes remain to be printed; `None` if it quits.
-    fn obey(&mut self, found: Found, out: &mut dyn Write) -> Result<Option<bool>, Error> {
-        let knob = match found.command {
-            Command::Select(place) => KNOBS.get(place),
-            _ => None,
-        };
-        if found.command == Command::Leave {
-            return Ok(None);
-        }
         self.app.layout.size = PICTURE;
-        let effect = self.app.update(found.command);
+        let effect = self.app.update(command);
         self.app.layout.size = (WIDTH, ROWS);
         // The paused motion moves to the cursor at once.
         self.app.depart();
         self.app.play.playing = false;
         match effect {
-            Err(refused) => {
-                self.refuse(&refused, out)?;
-                return Ok(Some(false));
-            }
-            Ok(Effect::Quit) => return Ok(None),
+            Err(refused) => return Reply::Refused(refused),
+            Ok(Effect::Quit) => return Reply::Quit,
+            // Nothing in it acts on a terminal; a shortened command would be another one.
+            Ok(Effect::Copy(command)) => return Reply::Told(vec![command]),
             Ok(Effect::Write(job)) => {
                 // An existing file is refused, because there is no dialogue to ask about it.
                 let result = match job.run() {
                     FileResult::Exists => FileResult::Failed("it exists".into()),
                     result => result,
                 };
-                let failed = matches!(result, FileResult::Failed(_));
-                self.app.written(result);
-                if let Some(why) = self.app.status.as_ref().filter(|_| failed) {
-                    self.refuse(why, out)?;
-                    return Ok(Some(false));
+                if !self.app.written(result) {
+                    return Reply::Refused(self.app.status.take().unwrap_or_default());
                 }
-            }
-            Ok(Effect::Copy(command)) => {
-                // Nothing in it acts on a terminal; a shortened command would be another one.
-                writeln!(out, "{command}")?;
-                return Ok(Some(false));
             }
             Ok(Effect::None) => {}
             // Effects on the screen are ignored.
@@ -251,30 +247,20 @@ impl Lines {
         }
         if let Some(knob) = knob {
             let text = format!("{} is {}: {}", knob.label, knob.text(&self.app.scene), knob.does);
-            writeln!(out, "{}", self.spelled(&clean(&text)))?;
-            return Ok(Some(false));
+            return Reply::Told(vec![self.shown(&text)]);
         }
         match std::mem::replace(&mut self.app.dialogue.mode, InputMode::Main) {
-            InputMode::Main => return Ok(Some(true)),
-            InputMode::Scenes => self.list("scene", out)?,
-            InputMode::Lessons => self.list("lesson", out)?,
-            _ => {
-                self.refuse(&format!("{} needs a screen, or more words; help", found.what), out)?
-            }
+            InputMode::Main => Reply::Done(doubt),
+            InputMode::Scenes => self.list("scene"),
+            InputMode::Lessons => self.list("lesson"),
+            _ => Reply::Refused(format!("{what} needs a screen, or more words; help")),
         }
-        Ok(Some(false))
     }
 
-    fn refuse(&self, why: &str, out: &mut dyn Write) -> Result<(), Error> {
-        writeln!(out, "refused: {}", self.spelled(&clean(why)))
-    }
-
-    /// Prints every scene or every lesson that can be opened; `kind` is `scene` or `lesson`.
-    fn list(&self, kind: &str, out: &mut dyn Write) -> Result<(), Error> {
-        for found in words::found(&self.app, &format!("{kind} ")) {
-            writeln!(out, "{}", self.spelled(&clean(&format!("{kind} {}", found.what))))?;
-        }
-        Ok(())
+    /// Lists every scene or every lesson that can be opened; `kind` is `scene` or `lesson`.
+    fn list(&self, kind: &str) -> Reply {
+        let found = words::found(&self.app, &format!("{kind} ")).into_iter();
+        Reply::Told(found.map(|found| self.shown(&format!("{kind} {}", found.what))).collect())
     }
 
     /// Prints the two header lines of the screen.
@@ -291,27 +277,31 @@ impl Lines {
                 format!("{} {} -> {}", knob.label, knob.text(before), knob.text(&self.app.scene))
             })
             .collect();
-        let changed = (!parts.is_empty()).then(|| format!("changed: {}", parts.join("; ")));
-        let said = self.app.status.as_ref().map(|said| format!("done: {said}"));
-        let lines: Vec<String> = changed.into_iter().chain(said).collect();
-        if lines.is_empty() { vec!["changed: nothing".into()] } else { lines }
+        let changed = match (parts.is_empty(), &self.app.status) {
+            (true, None) => Some("changed: nothing".into()),
+            (true, Some(_)) => None,
+            (false, _) => Some(format!("changed: {}", parts.join("; "))),
+        };
+        let changed = changed.map(|text| self.shown(&text));
+        changed.into_iter().chain(self.app.status.iter().map(|said| self.done(said))).collect()
     }
 
-    fn help(&self, words: &str, out: &mut dyn Write) -> Result<(), Error> {
-        match words {
-            "" => writeln!(out, "{USAGE}"),
-            words => {
-                let found = help::help_text(&self.app, WIDTH, words);
-                if found.is_empty() {
-                    return writeln!(out, "refused: no command matches: {}", clean(words));
-                }
-                found.iter().try_for_each(|line| writeln!(out, "{line}"))
-            }
+    fn done(&self, said: &str) -> String {
+        self.shown(&format!("done: {said}"))
+    }
+
+    fn help(&self, words: &str) -> Reply {
+        if words.is_empty() {
+            return Reply::Told(vec![USAGE.into()]);
+        }
+        match help::help_text(&self.app, WIDTH, words) {
+            found if found.is_empty() => Reply::Refused(format!("no command matches: {words}")),
+            found => Reply::Told(found),
         }
     }
 
-    fn spelled(&self, text: &str) -> String {
-        self.app.appearance.spell(text)
+    fn shown(&self, text: &str) -> String {
+        self.app.appearance.spell(&clean(text))
     }
 }
 

@@ -231,47 +231,46 @@ const WHEEL_ROWS: u16 = 10;
 /// Splits the area into the large chart and as many smaller ones as remain legible. The wheel is
 /// about square and shares its rows with another chart; any other large chart has the full width.
 fn split(area: Rect, app: &App) -> Vec<(ViewId, Rect)> {
-    let views = app.layout.shown();
-    let beside = u16::try_from(app.layout.beside).unwrap_or(0);
+    let beside = app.layout.beside;
     let wheel = app.is_large(ViewId::Frame);
     let large = if wheel { WHEEL_ROWS } else { LEAST_ROWS };
     let below = area.height.saturating_sub(large) / LEAST_ROWS;
+    let vertical = |parts: Vec<Constraint>| Split::vertical(parts).split(area).to_vec();
+    if area.width < PAIR_FROM {
+        let count = u16::try_from(beside).unwrap_or(below).min(below);
+        let low = (area.height * 3 / (4 + 3 * count)).max(LEAST_ROWS);
+        let mut rows = vec![Constraint::Min(1)];
+        rows.extend((0..count).map(|_| Constraint::Length(low)));
+        return app.layout.shown().zip(vertical(rows)).collect();
+    }
+    // Numbers of charts side by side, above and below.
+    let [above, under] = match (wheel, beside) {
+        (_, 0) => [1, 0],
+        (true, _) if below == 0 => [2, 0],
+        (false, _) if below == 0 => [1, 0],
+        (true, more) => [2, more - 1],
+        (false, more) => [1, more.min(2)],
+    };
     // The margins table can use every row.
     let part = if app.is_large(ViewId::Margins) { 0 } else { LOWER };
     let lower = (area.height * part).div_ceil(100).max(LEAST_ROWS);
-    let two = [Constraint::Min(1), Constraint::Length(lower)];
-    let vertical = |parts: &[Constraint]| Split::vertical(parts.iter()).split(area).to_vec();
-    let wheel_part = if app.layout.size.0 < WIDE { 48 } else { WHEEL_PART };
-    let pair = |area: Rect, left: u16| {
-        let parts = [Constraint::Percentage(left), Constraint::Percentage(100 - left)];
-        Split::horizontal(parts).spacing(1).split(area).to_vec()
+    let rows = match under {
+        0 => vec![area],
+        _ => vertical(vec![Constraint::Min(1), Constraint::Length(lower)]),
     };
-    let areas = match (area.width >= PAIR_FROM, beside) {
-        (_, 0) => vec![area],
-        (true, 1) if wheel => pair(area, wheel_part),
-        (true, _) if below == 0 => {
-            if wheel {
-                pair(area, wheel_part)
-            } else {
-                vec![area]
-            }
-        }
-        (true, 1) => vertical(&two),
-        (true, most) => match vertical(&two).as_slice() {
-            [top, bottom] if wheel && most == 2 => [pair(*top, wheel_part), vec![*bottom]].concat(),
-            [top, bottom] if wheel => [pair(*top, wheel_part), pair(*bottom, wheel_part)].concat(),
-            [top, bottom] => [vec![*top], pair(*bottom, 50)].concat(),
-            _ => vec![area],
-        },
-        (false, most) => {
-            let count = most.min(below);
-            let low = area.height * 3 / (4 + 3 * count);
-            let mut rows = vec![Constraint::Min(1)];
-            rows.extend((0..count).map(|_| Constraint::Length(low.max(LEAST_ROWS))));
-            vertical(&rows)
-        }
+    let left = match wheel {
+        true if app.layout.size.0 < WIDE => 48,
+        true => WHEEL_PART,
+        false => 50,
     };
-    views.zip(areas).collect()
+    let areas = rows.into_iter().zip([above, under]).flat_map(|(row, count)| match count {
+        1 => vec![row],
+        _ => {
+            let parts = [Constraint::Percentage(left), Constraint::Percentage(100 - left)];
+            Split::horizontal(parts).spacing(1).split(row).to_vec()
+        }
+    });
+    app.layout.shown().zip(areas).collect()
 }
 
 /// Height of the charts below the large one on a wide screen \[% of the height of all charts\].

@@ -78,15 +78,6 @@ impl Play {
         self.moves.push(Move::To(begin_s));
     }
 
-    /// Returns whether the result of the latest jump is that of this number; it is reported once.
-    pub fn is_met(&mut self, number: u64) -> bool {
-        let is_new = self.jump == Some(number);
-        if is_new {
-            self.jump = None;
-        }
-        is_new
-    }
-
     /// Returns simulated time over wall-clock time.
     pub fn rate(&self) -> f64 {
         RATES.get(self.tempo.rate).copied().unwrap_or(5e-3)
@@ -262,12 +253,9 @@ mod tests {
         play.pause();
         play.restart(0.0);
         assert!(!play.playing);
-        let number = play.moves.push(Move::NextChange);
-        play.jump = Some(number);
-        assert!(play.is_met(number) && !play.is_met(number));
-        play.jump = Some(number);
+        play.jump = Some(play.moves.push(Move::NextChange));
         play.restart(0.0);
-        assert!(!play.is_met(number), "nobody waits for a jump of the motion before");
+        assert_eq!(play.jump, None, "nobody waits for a jump of the motion before");
     }
 
     #[test]

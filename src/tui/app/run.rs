@@ -313,7 +313,7 @@ impl App {
     /// Sets the status message when a jump is complete or the run has ended.
     fn report_moves(&mut self) {
         let (number, met) = self.run.latest.met;
-        if self.play.is_met(number) {
+        if self.play.jump.take_if(|jump| *jump == number).is_some() {
             self.status = Some(match met {
                 Some(mark) => format!("{}: {}", instant(mark.t_s), self.happening(mark.what)),
                 None => "no change of contact comes soon".into(),
