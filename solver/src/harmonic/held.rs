@@ -18,7 +18,7 @@
 
 use nalgebra::{Complex, Matrix6, Vector4, Vector6};
 use serde::Serialize;
-use strum::{AsRefStr, Display, EnumString, VariantNames};
+use strum::{Display, EnumString, VariantNames};
 
 use super::Corner;
 use crate::model::{Frame, Machine, Row};
@@ -59,18 +59,7 @@ const POLISHED: f64 = 1e-11;
 /// Form of the equations for the blade angles. It hardly affects casing amplitude and multipliers,
 /// but it changes the blade angles.
 #[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    Hash,
-    Serialize,
-    Display,
-    EnumString,
-    AsRefStr,
-    VariantNames,
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Display, EnumString, VariantNames,
 )]
 #[serde(rename_all = "lowercase")]
 #[strum(serialize_all = "lowercase")]

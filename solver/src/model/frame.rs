@@ -235,14 +235,18 @@ impl Frame {
         let along = across(held.iter().map(|row| vector(&row.force)));
         let scale = Matrix4::from_diagonal(&weights.map(f64::recip));
         let (first, count) = (held.len(), self.coordinates.saturating_sub(held.len()));
-        let project = |matrix: Matrix4<f64>| {
+        let project = |matrix: Matrix4<f64>, beyond: f64| {
             let projected = along.tr_mul(&(matrix * free));
-            projected.view((first, first), (count, count)).into_owned()
+            let mut moved = Matrix4::from_diagonal_element(beyond);
+            let block = projected.view((first, first), (count, count));
+            moved.view_mut((0, 0), (count, count)).copy_from(&block);
+            moved
         };
         Motion {
-            mass: project(Matrix4::identity()),
-            damping: project(scale * damping * scale),
-            stiffness: project(scale * stiffness * scale),
+            count,
+            mass: project(Matrix4::identity(), 1.0),
+            damping: project(scale * damping * scale, 0.0),
+            stiffness: project(scale * stiffness * scale, FIRM),
         }
     }
 }
@@ -340,10 +344,15 @@ impl Row {
 /// Small motions about a state, `M q'' + C q' + K q = 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    mass: DMatrix<f64>,
-    damping: DMatrix<f64>,
-    stiffness: DMatrix<f64>,
+    /// Number of coordinates. The rest of each matrix belongs to a coordinate that does not move.
+    count: usize,
+    mass: Matrix4<f64>,
+    damping: Matrix4<f64>,
+    stiffness: Matrix4<f64>,
 }
+
+/// Stiffness of a coordinate that does not move \[1/s^2\].
+const FIRM: f64 = 1e150;
 
 impl Motion {
     /// Returns whether the energy `(q'^T q' + q^T K q)/2` shows that no motion grows faster than
@@ -351,12 +360,12 @@ impl Motion {
     /// `|N| |q| |q'|`. Needs unit masses, which contact without friction leaves.
     #[must_use]
     pub fn is_bounded(&self, rate: f64) -> bool {
-        let unit = DMatrix::identity(self.mass.nrows(), self.mass.ncols());
-        let even = |of: &DMatrix<f64>| (of + of.transpose()) * 0.5;
-        let skew = (&self.stiffness - self.stiffness.transpose()) * 0.5;
+        let unit = Matrix4::identity();
+        let even = |of: &Matrix4<f64>| (of + of.transpose()) * 0.5;
+        let skew = (self.stiffness - self.stiffness.transpose()) * 0.5;
         let softest = (skew.norm() / rate).powi(2);
-        (&self.mass - &unit).amax() <= AS_ZERO
-            && (even(&self.stiffness) - &unit * softest).cholesky().is_some()
+        (self.mass - unit).amax() <= AS_ZERO
+            && (even(&self.stiffness) - unit * softest).cholesky().is_some()
             && (even(&self.damping) + unit * (0.5 * rate)).cholesky().is_some()
     }
 
@@ -364,9 +373,11 @@ impl Motion {
     /// matrix of the motions that the held rows allow is singular.
     #[must_use]
     pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
-        let n = self.mass.nrows();
-        let inverse = self.mass.clone().try_inverse()?;
-        let (stiffness, damping) = (&inverse * &self.stiffness, &inverse * &self.damping);
+        let n = self.count;
+        let block = |of: &Matrix4<f64>| of.view((0, 0), (n, n)).into_owned();
+        let inverse = block(&self.mass).try_inverse()?;
+        let (stiffness, damping) =
+            (&inverse * block(&self.stiffness), &inverse * block(&self.damping));
         state_rates(stiffness.amax().sqrt().max(damping.amax()), |rate| {
             let mut state = DMatrix::zeros(2 * n, 2 * n);
             state.view_mut((0, n), (n, n)).fill_with_identity();
