@@ -15,7 +15,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use bench::benchmark_group;
-use ratatui::{backend::TestBackend, terminal::Terminal};
+use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::worker::Playback;
 use rubscope::tui::{App, Marker, Theme, run};
 use rubscope_solver::scene::Scene;

@@ -1,5 +1,7 @@
 //! A list of lines with a selected one.
 
+use ratatui::text::Line;
+use ratatui::widgets::{HighlightSpacing, List, ListState, StatefulWidget};
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::appearance::Appearance;
@@ -14,16 +16,12 @@ pub fn draw_list(
     lines: impl IntoIterator<Item = (String, Role)>,
     chosen: usize,
 ) -> usize {
-    let lines: Vec<_> = lines.into_iter().collect();
-    let chosen = chosen.min(lines.len().saturating_sub(1));
-    let first = (chosen + 1).saturating_sub(area.height.into());
-    let width = usize::from(area.width);
-    for (row, (at, (text, role))) in area.rows().zip(lines.iter().enumerate().skip(first)) {
-        let mark = if at == chosen { look.either("▸", ">") } else { " " };
-        buffer.set_stringn(row.x, row.y, format!("{mark}{text}"), width, look.style(*role));
-        if at == chosen {
-            buffer.set_style(row, look.style(Role::Focus).add_modifier(Modifier::REVERSED));
-        }
-    }
-    first
+    let lines = lines.into_iter().map(|(text, role)| Line::styled(text, look.style(role)));
+    let list = List::new(lines)
+        .highlight_symbol(look.either("▸", ">"))
+        .highlight_spacing(HighlightSpacing::Always)
+        .highlight_style(look.style(Role::Focus).add_modifier(Modifier::REVERSED));
+    let mut state = ListState::default().with_selected(Some(chosen));
+    StatefulWidget::render(list, area, buffer, &mut state);
+    state.offset()
 }

@@ -94,6 +94,9 @@ pub fn check_terminal() -> Result<(), &'static str> {
 /// # Errors
 /// Fails if threads or signals cannot be set up, or the last file was not written.
 pub fn explore(scene: CheckedScene, options: ExploreOptions) -> anyhow::Result<u8> {
+    // Otherwise crossterm would drop bold and reverse too if `NO_COLOR` is set. The mono theme has
+    // no colours anyway.
+    crossterm::style::force_color_output(true);
     terminal::install_panic_hook(&[worker::WORKER_NAME, files::FILES_NAME]);
     let (sender, events) = mpsc::channel();
     events::watch_signals(sender.clone())?;

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use ratatui::{backend::Backend, terminal::Terminal};
+use ratatui::{Terminal, backend::Backend};
 
 use super::app::App;
 use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH};

@@ -8,12 +8,19 @@ use std::sync::atomic::Ordering::SeqCst;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::{Duration, Instant};
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use crossterm::terminal::{disable_raw_mode, enable_raw_mode};
-use ratatui::backend::{Backend, ClearType, WindowSize};
+use crossterm::cursor::{Hide, Show};
+use crossterm::event::{
+    DisableBracketedPaste, EnableBracketedPaste, KeyCode, KeyEvent, KeyModifiers,
+};
+use crossterm::queue;
+use crossterm::style::{Attribute, SetAttribute};
+use crossterm::terminal::{
+    EnterAlternateScreen, LeaveAlternateScreen, disable_raw_mode, enable_raw_mode,
+};
+use ratatui::Terminal;
+use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
-use ratatui::terminal::Terminal;
 
 use crate::tui::encode::write_cells;
 use crate::tui::ending::ended_by;
@@ -42,13 +49,6 @@ static WHOLE: AtomicBool = AtomicBool::new(false);
 /// complete. Terminals without this mode ignore both.
 const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
-
-/// Open the alternate screen, without cursor and with bracketed paste, and close it without any style.
-const ENTER: &[u8] = b"\x1b[?1049h\x1b[?25l\x1b[?2004h";
-const LEAVE: &[u8] = b"\x1b[?2004l\x1b[?1049l\x1b[?25h\x1b[0m";
-
-/// Empties the screen.
-const CLEAR: &[u8] = b"\x1b[2J";
 
 /// Switch mouse reports on and off: clicks and the wheel, without moves (mode 1000), in the
 /// encoding without a largest column (mode 1006).
@@ -106,7 +106,8 @@ fn enter() -> Result<(), Error> {
         HELD.store(again, SeqCst);
         return Err(error);
     }
-    let mut bytes = ENTER.to_vec();
+    let mut bytes = Vec::new();
+    queue!(bytes, EnterAlternateScreen, Hide, EnableBracketedPaste)?;
     if MOUSE.load(SeqCst) {
         bytes.extend_from_slice(MOUSE_ON);
     }
@@ -146,7 +147,14 @@ pub fn leave() {
         }
         // Sent even if mouse reports are off: the sequence that switched them off may be lost.
         bytes.extend_from_slice(MOUSE_OFF);
-        bytes.extend_from_slice(LEAVE);
+        // Writing into a vector cannot fail.
+        let _ = queue!(
+            bytes,
+            DisableBracketedPaste,
+            LeaveAlternateScreen,
+            Show,
+            SetAttribute(Attribute::Reset)
+        );
         let send = || tty.send(&bytes, |idle| idle >= ROOM);
         if send().is_ok_and(|sent| sent < bytes.len()) && front {
             tty.drop_pending();
@@ -317,26 +325,23 @@ impl Backend for ScreenBackend {
     }
 
     fn show_cursor(&mut self) -> Result<(), Error> {
-        Ok(())
+        CrosstermBackend::new(&mut self.0).show_cursor()
     }
 
     fn get_cursor_position(&mut self) -> Result<Position, Error> {
-        // Asking would take the answer from the keys; nothing that draws over the whole screen asks.
-        Ok(Position::ORIGIN)
+        CrosstermBackend::new(&mut self.0).get_cursor_position()
     }
 
-    fn set_cursor_position<P: Into<Position>>(&mut self, _: P) -> Result<(), Error> {
-        Ok(())
+    fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> Result<(), Error> {
+        CrosstermBackend::new(&mut self.0).set_cursor_position(position)
     }
 
     fn clear(&mut self) -> Result<(), Error> {
         self.clear_region(ClearType::All)
     }
 
-    fn clear_region(&mut self, _: ClearType) -> Result<(), Error> {
-        // It is used for the whole screen only.
-        self.0.extend_from_slice(CLEAR);
-        Ok(())
+    fn clear_region(&mut self, region: ClearType) -> Result<(), Error> {
+        CrosstermBackend::new(&mut self.0).clear_region(region)
     }
 
     fn size(&self) -> Result<Size, Error> {

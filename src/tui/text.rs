@@ -1,5 +1,6 @@
 //! Text on the screen: single rows, rows of styled pieces, and wrapped lines.
 
+use ratatui::widgets::{Clear, Widget};
 use ratatui::{buffer::Buffer, layout::Rect, style::Style};
 
 use crate::sheet::line::{harmless, wrapped};
@@ -28,15 +29,8 @@ pub fn print(buffer: &mut Buffer, area: Rect, row: u16, text: &str, style: Style
 /// Prints lines over what an area shows, one in each row. The rows are cleared first.
 pub fn overlay(buffer: &mut Buffer, area: Rect, lines: &[String], style: Style) {
     for (row, line) in (0..area.height).zip(lines) {
-        clear(buffer, Rect { y: area.y + row, height: 1, ..area });
+        Clear.render(Rect { y: area.y + row, height: 1, ..area }, buffer);
         print(buffer, area, row, line, style);
-    }
-}
-
-/// Makes an area empty, before something is drawn over what it shows.
-pub fn clear(buffer: &mut Buffer, area: Rect) {
-    for place in area.intersection(buffer.area).positions() {
-        buffer[place].reset();
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::{backend::TestBackend, terminal::Terminal};
+use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::command::table::BINDINGS;
 use rubscope::tui::engine::{Engine, FullRunState, Order, Results, Snapshot};
 use rubscope::tui::events::ScreenEvent;

@@ -7,10 +7,6 @@ pub type Inert = fn(&Scene) -> Option<&'static str>;
 
 const STILL: &str = "the blades of the rigid model do not move";
 
-fn has(model: ModelSize, scene: &Scene) -> bool {
-    scene.solver.model == model
-}
-
 /// Defines functions of type [`Inert`], each by a condition on the scene and a reason.
 macro_rules! inert {
     ($($name:ident: |$scene:ident| $when:expr => $why:expr;)+) => {
@@ -19,15 +15,15 @@ macro_rules! inert {
 }
 
 inert! {
-    rigid: |scene| has(ModelSize::Rigid, scene) => STILL;
+    rigid: |scene| scene.solver.model == ModelSize::Rigid => STILL;
     without_time: |scene| scene.operation.pulse_s == 0.0 => "the pulse time is 0";
     without_pulse: |scene| scene.operation.pulse_n == 0.0 => "the pulse is 0";
     step: |scene| scene.solver.kind == SolverKind::Event => "the event solver has no steps";
     lining: |scene| scene.solver.contact != ContactLaw::Smooth => "only the smooth law has a lining";
     restitution: |scene| scene.solver.contact == ContactLaw::Smooth => "only rigid contact rebounds";
-    not_modal: |scene| !has(ModelSize::Modal, scene) => "only the modal model uses n_b";
-    not_full: |scene| !has(ModelSize::Full, scene) => "only the full model has individual blades";
-    friction: |scene| has(ModelSize::Rigid, scene) && scene.casing.tangential_ratio == 0.0 => "rigid blades and a radial casing do not feel friction";
+    not_modal: |scene| scene.solver.model != ModelSize::Modal => "only the modal model uses n_b";
+    not_full: |scene| scene.solver.model != ModelSize::Full => "only the full model has individual blades";
+    friction: |scene| scene.solver.model == ModelSize::Rigid && scene.casing.tangential_ratio == 0.0 => "rigid blades and a radial casing do not feel friction";
     tangential: |scene| scene.contact.friction == 0.0 => "without friction nothing pulls the casing along";
     equal_tips: |scene| scene.bladed_disk.tip_scatter_m == 0.0 => "the tip scatter is 0";
     centred: |scene| scene.bladed_disk.orbit_m == 0.0 => "the orbit is 0";
@@ -42,7 +38,7 @@ pub fn draw(scene: &Scene) -> Option<&'static str> {
 
 pub fn coupling(scene: &Scene) -> Option<&'static str> {
     let beside = scene.bladed_disk.diameters_beside(scene.operation.nodal_diameters);
-    let alike = has(ModelSize::Modal, scene) && beside == 0;
+    let alike = scene.solver.model == ModelSize::Modal && beside == 0;
     rigid(scene).or(alike.then_some("with n_d = 0 all blades move alike"))
 }
 

@@ -4,14 +4,15 @@
 mod footer;
 mod header;
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, terminal::Frame};
+use ratatui::widgets::{Clear, Widget};
+use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::app::knobs::{panel as knobs, strip};
 use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH, Places};
 use super::app::{App, InputMode, files, help, layout, lesson, palette};
 use super::command::Command;
 use super::field::CURSOR;
-use super::text::{CUT, clear, print, wrap};
+use super::text::{CUT, print, wrap};
 use super::theme::Role;
 use super::views::ViewArea;
 use super::views::margins::ends;
@@ -81,7 +82,7 @@ fn main_screen(app: &App, buffer: &mut Buffer, places: &Places) {
         ends::draw(app, buffer, area);
     }
     if let Some(area) = places.list {
-        clear(buffer, area);
+        Clear.render(area, buffer);
         knobs::panel(app, buffer, area, strip::count(app, places.knobs.width));
     } else if !places.column {
         let below = places.body.bottom() - places.knobs.y;
