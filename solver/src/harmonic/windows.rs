@@ -9,8 +9,8 @@
 //! fifty times (whirl and flutter) the faster of critical speed and coincidence. It also includes
 //! the ends of the closed form for rigid blades (`Machine::lock_windows`), points beside them and
 //! the middles between them. An end of the scan within 0.2 % of one of the closed form is replaced
-//! by it. Without slope, and if the blades hardly bend up to the last speed, there is no scan: the
-//! closed form is returned.
+//! by it. With rigid blades, and without slope if the blades hardly bend up to the last speed, there is
+//! no scan: the closed form is returned.
 
 use super::held::Held;
 use super::{Corner, Form, Locked, LockedPoint};
@@ -128,7 +128,8 @@ pub(super) fn lock_windows_beside<'a>(
 ) -> Vec<LockWindow> {
     let pushed = machine.lock_windows(toward);
     let known = machine.out_of_round() == 0.0 && !machine.has_unequal_tips() || !pushed.is_empty();
-    if machine.lining.is_some() || machine.out_of_round() != 0.0 || !known {
+    let closed = machine.lining.is_some() || machine.rigid_blades;
+    if closed || machine.out_of_round() != 0.0 || !known {
         return pushed;
     }
     let (locks, sense) = (Locks::new(machine, toward), 1_f64.copysign(toward));

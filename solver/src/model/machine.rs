@@ -59,6 +59,8 @@ pub struct Machine {
     /// Slope `kappa` of the tip path: a blade angle `alpha` moves the tip outward by
     /// `kappa l_b alpha`.
     pub radial_coupling: f64,
+    /// Whether the blades are taken as rigid: contact bends none; [`new`](Self::new) sets `false`.
+    pub rigid_blades: bool,
     /// Nodal diameters `n_b` of the disk modes, as a floating-point number.
     pub blade_diameters: f64,
     /// Ratio `tau` of tangential to radial amplitude of the casing mode.
@@ -119,6 +121,7 @@ impl Machine {
             has_sine_mode,
             blade_length: disk.blade_length_m,
             radial_coupling: disk.radial_coupling,
+            rigid_blades: false,
             blade_diameters: f64::from(blade_diameters),
             tangential_ratio: casing.tangential_ratio,
             friction: 0.0,

@@ -186,6 +186,7 @@ impl Scene {
         if self.solver.model == ModelSize::Rigid {
             // Rigid blades do not bend, so an inclined tip path has no effect.
             machine.radial_coupling = 0.0;
+            machine.rigid_blades = true;
         }
         machine.turn_at(self.operation.speed_rad_s);
         machine

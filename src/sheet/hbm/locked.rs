@@ -13,7 +13,7 @@ pub const LOCKED: View =
 
 fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> {
     let mut sweep = request.lock()?.sweep(request.speeds)?;
-    if request.is_rigid() {
+    if request.machine.rigid_blades {
         sweep.points.iter_mut().for_each(|point| point.alpha_rad = [0.0; 2]);
     }
     let sides = sweep.corner.sides();

@@ -6,7 +6,7 @@ use crate::sheet::number::{count, rounded, short, span, speed};
 use crate::sheet::{CommandLine, Sheet};
 use rubscope_solver::harmonic::{Corner, Form, Locked, lock_window};
 use rubscope_solver::model::{LockWindow, Machine};
-use rubscope_solver::scene::{ModelSize, Scene, SceneError, keys};
+use rubscope_solver::scene::{Scene, SceneError, keys};
 
 /// A view of the steady states of a scene.
 #[derive(Debug)]
@@ -93,7 +93,7 @@ impl<'a> Request<'a> {
         if let ViewContact::Rigid(tolerates) = view.contact {
             let machine = self.scene.machine().with_lining(None);
             // The rigid model ignores the bending of the blades under load.
-            self.machine = if self.is_rigid() { machine.with_stiff_blades() } else { machine };
+            self.machine = if machine.rigid_blades { machine.with_stiff_blades() } else { machine };
             if let Err(error) = self.lock()
                 && !tolerates(&error)
             {
@@ -117,11 +117,6 @@ impl<'a> Request<'a> {
         }
         let corner = Corner::of(&self.machine, speeds.last().copied().unwrap_or(1.0), pair)?;
         Locked::new(&self.machine, corner, form, damped)
-    }
-
-    /// Returns whether the model of the scene has rigid blades.
-    pub(super) fn is_rigid(&self) -> bool {
-        self.scene.solver.model == ModelSize::Rigid
     }
 
     /// Returns the speed of largest magnitude, with its sign, which determines the sense of

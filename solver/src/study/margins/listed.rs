@@ -8,7 +8,7 @@ use super::touching;
 use crate::harmonic::{lobes_of, lock_growth};
 use crate::model::LockWindow;
 use crate::numeric::rounding::rounded;
-use crate::scene::{ModelSize, Scene};
+use crate::scene::Scene;
 
 /// Limits that few machines have; such a limit is listed only if it exists.
 const SELDOM: [LimitName; 5] = [
@@ -77,8 +77,7 @@ fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
     }
     let speed = scene.operation.speed_rad_s;
     if name.quantity().path().is_none() {
-        let bends = scene.solver.model != ModelSize::Rigid;
-        let growth = lock_growth(machine, speed).filter(|_| bends)?;
+        let growth = lock_growth(machine, speed).filter(|_| !machine.rigid_blades)?;
         return Some(format!(
             "this lock is unstable: deviations grow at {} 1/s",
             rounded(growth, 3)
