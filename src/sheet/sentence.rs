@@ -8,7 +8,7 @@ use super::number::{grouped, micro, rounded, short, time, with_unit};
 use rubscope_solver::harmonic::{lock_growth, roundness_needed};
 use rubscope_solver::model::Machine;
 use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Seen, Verdict};
-use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
+use rubscope_solver::scene::{ContactLaw, Scene};
 
 /// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
@@ -123,7 +123,7 @@ impl Facts {
         let pulling: Vec<u32> = blades(pull).collect();
         let locked = verdict == Verdict::Locked;
         let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
-        let may_grow = locked && steady && scene.solver.model != ModelSize::Rigid;
+        let may_grow = locked && steady;
         Self {
             verdict,
             blades: pulling.iter().copied().chain(blades(push)).collect(),

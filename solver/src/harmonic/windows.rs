@@ -114,10 +114,10 @@ impl Locks {
 }
 
 /// Returns the growth rate of the admissible lock of a machine without a lining at a constant speed
-/// \[1/s\]. `None` if it is stable, or if there is no such lock.
+/// \[1/s\]. `None` if it is stable, as with rigid blades, or if there is no such lock.
 #[must_use]
 pub fn lock_growth(machine: &Machine, speed: f64) -> Option<f64> {
-    Locks::new(machine, speed).growth(speed)
+    if machine.rigid_blades { None } else { Locks::new(machine, speed).growth(speed) }
 }
 
 /// As `lock_windows`; the ranges of [`flutters`] are computed only if the search needs them.

@@ -163,9 +163,13 @@ impl Machine {
         }
     }
 
-    /// Makes the blades rigid. Their frequency stays.
+    /// Returns the machine whose blades contact forces bend: where they are rigid, with stiff ones,
+    /// whose frequency stays.
     #[must_use]
-    pub fn with_stiff_blades(self) -> Self {
+    pub fn under_load(self) -> Self {
+        if !self.rigid_blades {
+            return self;
+        }
         Self {
             blade_inertia: self.blade_inertia * STIFF_BLADES,
             blade_modal_mass: self.blade_modal_mass * STIFF_BLADES,

@@ -91,9 +91,7 @@ impl<'a> Request<'a> {
     ) -> Result<Sheet<'static>, SceneError> {
         self.refuse_uneven(view)?;
         if let ViewContact::Rigid(tolerates) = view.contact {
-            let machine = self.scene.machine().with_lining(None);
-            // The rigid model ignores the bending of the blades under load.
-            self.machine = if machine.rigid_blades { machine.with_stiff_blades() } else { machine };
+            self.machine = self.scene.machine().with_lining(None).under_load();
             if let Err(error) = self.lock()
                 && !tolerates(&error)
             {

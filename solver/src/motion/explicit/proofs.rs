@@ -5,7 +5,6 @@ use crate::harmonic::Locks;
 use crate::model::CERTAIN_PUSH;
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Verdict};
-use crate::scene::ModelSize;
 
 /// Steps a corner must have been closed before it counts as held. Fewer: a crossing counts.
 const HELD_AFTER: u64 = 64;
@@ -114,8 +113,7 @@ impl Explicit {
         let verdict = if a > 0.0 || b > 0.0 { Verdict::Adhesive } else { Verdict::Locked };
         let certain = certain && change < ROOM_TO_CHANGE * least;
         let speed = self.drive.speed(self.n);
-        let bends = self.scene.solver.model != ModelSize::Rigid;
-        let asked = verdict == Verdict::Locked && bends;
+        let asked = verdict == Verdict::Locked && !machine.rigid_blades;
         let holds = || !asked || Locks::new(machine, speed).hold(speed);
         (certain && holds()).then_some(verdict)
     }

@@ -10,7 +10,7 @@ use super::sensitivity::{CHANGE, sensitivities};
 use super::touching::{self, FirstTouch};
 use crate::harmonic::{LockLoads, SpeedRanges, lobes_of, lock_loads, roundness};
 use crate::model::{LockWindow, Machine};
-use crate::scene::{Key, ModelSize, Scene};
+use crate::scene::{Key, Scene};
 
 /// Limits that do not depend on contact. The others assume rigid contact, or a lining that is not
 /// compressed at rest; a compressed lining has other limits (`LiningState`).
@@ -62,13 +62,8 @@ impl<'a> Evaluated<'a> {
 
     /// Returns one load of the lock at the speed of the scene; empty without a lock.
     fn load(&self, of: fn(&LockLoads) -> f64) -> Vec<f64> {
-        let loads = self.loads.get_or_init(|| {
-            let machine = self.machine().clone();
-            // In the rigid model the contact forces do not bend the blades.
-            let is_rigid = self.scene.solver.model == ModelSize::Rigid;
-            let machine = if is_rigid { machine.with_stiff_blades() } else { machine };
-            lock_loads(&machine, self.toward())
-        });
+        let machine = || self.machine().clone().under_load();
+        let loads = self.loads.get_or_init(|| lock_loads(&machine(), self.toward()));
         loads.iter().map(of).collect()
     }
 

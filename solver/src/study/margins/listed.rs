@@ -77,7 +77,7 @@ fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
     }
     let speed = scene.operation.speed_rad_s;
     if name.quantity().path().is_none() {
-        let growth = lock_growth(machine, speed).filter(|_| !machine.rigid_blades)?;
+        let growth = lock_growth(machine, speed)?;
         return Some(format!(
             "this lock is unstable: deviations grow at {} 1/s",
             rounded(growth, 3)
