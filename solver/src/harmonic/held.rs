@@ -271,7 +271,7 @@ pub(super) fn at_rest(machine: &Machine, speed: f64) -> Vec<Complex<f64>> {
 }
 
 /// The equations of a corner in one form. Lengths are in units of the clearance, contact forces of
-/// `force`, blade angles of `angle`, torques of `n_d force clearance`.
+/// `force`, blade angles of `angle`, torques of `bent n_d force clearance`.
 struct Equations {
     frame: Frame,
     form: Form,
@@ -282,9 +282,9 @@ struct Equations {
     clearance: f64,
     /// Unit of force, `k_c g0` \[N\].
     force: f64,
-    /// Unit of blade angles, the turn under a unit torque times `bent` \[rad\].
+    /// Unit of blade angles, the turn under the unit of torque \[rad\].
     angle: f64,
-    /// Unit of torques that keeps angles of order one if the torque of the tips dominates.
+    /// Factor on torques that keeps angles of order one if the torque of the tips dominates.
     bent: f64,
     /// Sign of the blades' stiffness: that of the form `printed` is negative.
     sign: f64,

@@ -45,8 +45,8 @@ pub struct LockedPoint {
     /// Largest growth rate of the motions that keep both contacts; `None` if none grows, if the
     /// state is not admissible, or if the eigenvalues cannot be computed \[1/s\].
     pub growth_1_s: Option<f64>,
-    /// Largest residual of the eight equations (27), dimensionless: torques in `n_d k_c g0^2`, gaps
-    /// in `g0`, forces in `k_c g0`.
+    /// Norm of the residuals of the equations, dimensionless: gaps in `g0`, forces in `k_c g0`, torques
+    /// in the unit that the solver of the equations takes.
     pub residual: f64,
 }
 

@@ -45,24 +45,23 @@ pub fn roundness(machine: &Machine, speed: f64, lobes: u32) -> Option<f64> {
     let pushes = machine.locked_multipliers(speed)?.map(|lambda| -lambda);
     let one = |(c, s): (f64, f64)| Complex::new(c, s);
     let normal = |side: u32| one(polygon.direction(side));
-    // exp(i m Phi) of the blade on a side.
-    let lobe = |side: u32| {
-        let blade = polygon.blades_of_side(side).first().map_or(0, |blade| blade - 1);
-        let part = u64::from(lobes) * u64::from(blade) % u64::from(polygon.blades);
+    // exp(i m Phi) of a blade, numbered from 1.
+    let lobe = |blade: u32| {
+        let part = u64::from(lobes) * u64::from(blade - 1) % u64::from(polygon.blades);
         one(crate::model::fraction_of_turn(part as u32, polygon.blades))
     };
     let [a, b] = corner.sides().map(normal);
-    let [at_a, at_b] = corner.sides().map(lobe);
+    let [at_a, at_b] = corner.sides().map(|side| lobe(polygon.blades_of_side(side)[0]));
     // 1/(2 i sin beta), where beta is the angle between both sides.
     let sine = (a.conj() * b).im;
     let over = Complex::new(0.0, -(sine * 2.0).recip());
     // z_1 and conj(z_2) for e = 1: z_1 conj(d) + conj(z_2) d = -exp(i m Phi) on both sides.
     let first = (at_b * a - at_a * b) * over;
     let second = (at_a * b.conj() - at_b * a.conj()) * over;
-    let stiffness = |omega: f64| Frame::at(machine, speed).casing.dynamic_stiffness(omega);
+    let casing = Frame::at(machine, speed).casing;
     let (nu, turn) = (machine.nu(speed), speed * f64::from(lobes));
-    let force = stiffness(nu + turn) * first * 2.0;
-    let back = (stiffness(nu - turn) * second.conj()).conj() * 2.0;
+    let force = casing.dynamic_stiffness(nu + turn) * first * 2.0;
+    let back = (casing.dynamic_stiffness(nu - turn) * second.conj()).conj() * 2.0;
     // Contact forces from sum p d = force, sum p conj(d) = back.
     let of_a = (back * b - force * b.conj()) * over;
     let of_b = (force * a.conj() - back * a) * over;
@@ -70,10 +69,11 @@ pub fn roundness(machine: &Machine, speed: f64, lobes: u32) -> Option<f64> {
         pushes.into_iter().zip([of_a, of_b].map(Complex::norm)).map(|(push, by)| push / by);
     let distance = machine.locked_amplitude()?;
     let bisector = place(machine, corner);
-    let by_gap = (0..polygon.sides).filter(|side| !corner.sides().contains(side)).map(|side| {
+    let blades = (1..=polygon.blades).map(|blade| (blade, polygon.side_of_blade(blade)));
+    let by_gap = blades.filter(|(_, side)| !corner.sides().contains(side)).map(|(blade, side)| {
         let d = normal(side);
         let open = machine.apothem(side) + (bisector * d.conj()).re;
-        open / (first * d.conj() + second * d + lobe(side)).norm()
+        open / (first * d.conj() + second * d + lobe(blade)).norm()
     });
     let most = by_push.chain(by_gap).reduce(f64::min)?;
     (most > 0.0 && most < distance).then_some(most)

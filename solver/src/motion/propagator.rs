@@ -16,7 +16,7 @@ use crate::numeric::quadrature::GAUSS_8;
 /// Frequency of a damped oscillator, as a part of its damping, up to which it hardly swings.
 const HARDLY_SWINGS: f64 = 0.3;
 
-/// Difference of two real roots, times the time, from which on their exponentials are subtracted.
+/// Half the difference of two real roots, times the time, from which on their exponentials are subtracted.
 const FAR_APART: f64 = 0.2;
 
 /// Radians of an oscillator below which its response to a constant force is integrated: the closed

@@ -38,9 +38,8 @@ fn interval(machine: &Machine, speed: f64) -> f64 {
 
 impl WaveTracker {
     pub fn over(scene: &CheckedScene) -> Self {
-        let (end, operation) = (scene.solver.end_s, &scene.operation);
-        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * end;
-        let shortest = interval(&scene.machine(), operation.speed_rad_s.abs().max(last.abs()));
+        let end = scene.solver.end_s;
+        let shortest = interval(&scene.machine(), scene.fastest_rad_s());
         let next = ((1.0 - LAST_PART) * end).max(end - MOST_OBSERVATIONS * shortest);
         Self { end, next, first: None, last: (0.0, 0.0), turned: 0.0 }
     }

@@ -94,7 +94,7 @@ impl SceneError {
         }
     }
 
-    /// Returns whether it refuses the value of this key.
+    /// Returns whether the error refuses the value of this key.
     #[must_use]
     pub fn is_of(&self, path: &str) -> bool {
         matches!(self, Self::Refused { key, .. } if key == path)

@@ -284,24 +284,23 @@ impl Lining<'_> {
 /// The two groups of the corner considered.
 const SIDES: [u32; 2] = [0, 1];
 
-/// Returns the displacement of a wave held by two groups alone; `None` if there is none, or if it
-/// is unstable.
-fn place(machine: &Machine, speed: f64) -> Option<Vector2<f64>> {
+/// Returns the frame and the displacement of a wave held by two groups alone; `None` if there is
+/// none, or if it is unstable.
+fn place(machine: &Machine, speed: f64) -> Option<(Frame, Vector2<f64>)> {
     let law = machine.lining.filter(|_| has_one_wave(machine))?;
     let lining = Lining { machine: Cow::Borrowed(machine), law };
     let balance = Balance::at(&lining, speed);
     let w = balance.solve(balance.sprung(2)?)?;
     let pushing = balance.gaps(w).filter(|(.., gap)| *gap < 0.0).map(|(side, ..)| side);
     let held = pushing.eq(SIDES) && balance.state(w).is_ok_and(|state| state.stable);
-    held.then_some(w)
+    held.then_some((balance.frame, w))
 }
 
 /// Returns the loads of a lock held by two groups on the lining; `None` if no two groups alone hold
 /// one.
 pub(in crate::harmonic) fn lock_loads(machine: &Machine, speed: f64) -> Option<LockLoads> {
     let machine = &*machine.at(speed);
-    let (law, w) = (machine.lining?, place(machine, speed)?);
-    let frame = Frame::at(machine, speed);
+    let (law, (frame, w)) = (machine.lining?, place(machine, speed)?);
     let each = f64::from(machine.polygon.blades_per_side);
     let directions = SIDES.map(|side| machine.polygon.direction(side));
     let normals = directions.map(|(cos, sin)| Complex::new(cos, sin));

@@ -378,8 +378,7 @@ impl Blades {
     /// motion that their angles follow the contact forces statically, and these are small.
     fn are_rigid(&self, scene: &Scene, machine: &Machine) -> bool {
         let operation = &scene.operation;
-        let last = operation.speed_rad_s + operation.speed_ramp_rad_s2 * scene.solver.end_s;
-        let nu = machine.nu(operation.speed_rad_s.abs().max(last.abs()));
+        let nu = machine.nu(scene.fastest_rad_s());
         let (rates, omega) = (machine.omega_c + nu, machine.omega_bd);
         let (clearance, half_side) = (machine.clearance(), machine.polygon.half_side());
         // Bounds on a lasting contact force and on an impulse, per unit mass.

@@ -41,7 +41,7 @@ pub(super) struct Fixed {
 }
 
 impl Fixed {
-    /// Creates them with the oscillators of the modes.
+    /// Creates the data and the oscillators of the modes.
     pub fn new(scene: &Scene, machine: &Machine, most_alike: u32) -> (Self, Vec<Oscillator>) {
         let (disk, polygon) = (&scene.disk_in_use(), &machine.polygon);
         let (blades, group) = (polygon.blades, polygon.blades_per_side);

@@ -14,9 +14,7 @@
 
 use super::Explicit;
 use super::angles::ANGLE_LOOK;
-use super::disk::Disk;
-use super::oscillator::Oscillator;
-use super::row::{Row, Tip, TipLaw};
+use super::row::{Row, Tip};
 use crate::motion::failure::MOST_ROWS;
 use crate::motion::lasting::mark;
 use crate::motion::{ActiveSet, FailureReason, Plane, dot};
@@ -39,13 +37,6 @@ const MOST_LONG_STEPS: u32 = 2000;
 /// Cosine of the angle between two sides from which on they count as turned onto each other; it is
 /// -1 at rest. Larger: a step that penetrates between them is blamed instead.
 const SIDES_TOGETHER: f64 = -0.5;
-
-/// Returns how far a unit multiplier of `b` closes the gap of `a`, an entry of `W` \[m/N\].
-#[inline(always)]
-fn joint(casing: &Oscillator, disk: &Disk, tips: &TipLaw, a: &Row, b: &Row) -> f64 {
-    casing.compliance * dot(a.normal, tips.push_on_casing(b.normal))
-        + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a, b)
-}
 
 /// What is known of the tips around the casing.
 struct Near {
@@ -255,7 +246,11 @@ impl Explicit {
         if count > MOST_ROWS && (law.pulls() || tips.rise != 0.0) {
             return Err(FailureReason::Rows { rows: count });
         }
-        let entry = |a: &Row, b: &Row| joint(casing, disk, tips, a, b);
+        // How far a unit multiplier of `b` closes the gap of `a`, an entry of `W` in m/N.
+        let entry = |a: &Row, b: &Row| {
+            casing.compliance * dot(a.normal, tips.push_on_casing(b.normal))
+                + (a.arm - tips.rise) * (b.arm - tips.pushed) * disk.compliance(a, b)
+        };
         match &mut rows[..] {
             [row] => row.lambda = row.apart / entry(row, row),
             [a, b] => {
