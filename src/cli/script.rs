@@ -16,7 +16,7 @@ const OPTION: &str = "--at";
 const PULSE: &str = "pulse";
 
 /// The changes of a run, in order of time.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct RequestedScript {
     /// The changes in words, such as `operation.speed_rad_s=480 at 10 ms`.
     pub words: Vec<String>,

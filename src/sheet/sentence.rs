@@ -13,7 +13,7 @@ use rubscope_solver::scene::{ContactLaw, Scene};
 /// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
 /// Begins the sentences of a run whose verdict another step changes.
-pub(super) const AT_THIS_STEP: &str = "At this step only.";
+const AT_THIS_STEP: &str = "At this step only.";
 /// A sentence in its long and its short form.
 type Forms = [String; 2];
 
@@ -183,14 +183,19 @@ impl Facts {
         texts.extend(notes.first().map(|first| first[1].clone()));
         texts.retain(|text| !text.is_empty());
         let mut forms = self.forms();
-        if self.certainty.depends_on_step == Some(true) {
+        if self.is_of_this_step() {
             forms = [format!("{AT_THIS_STEP} {}", forms[0]), AT_THIS_STEP.into()];
         }
         Sentence { wrong, ..Sentence::of(&word, forms, &texts, width) }
     }
 
+    /// Returns whether another step gives another verdict.
+    pub(super) fn is_of_this_step(&self) -> bool {
+        self.certainty.depends_on_step == Some(true)
+    }
+
     /// Describes the motion at the end of the run.
-    fn forms(&self) -> Forms {
+    pub(super) fn forms(&self) -> Forms {
         match self.verdict {
             Verdict::Locked => self.held(),
             Verdict::Adhesive => self.pulled(),
@@ -313,8 +318,7 @@ impl Facts {
     /// is suspect.
     fn notes(&self) -> (Vec<Forms>, bool) {
         let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
-        let Certainty { sensitive, depends_on_step, .. } = self.certainty;
-        let at_this_step = depends_on_step == Some(true);
+        let (sensitive, at_this_step) = (self.certainty.sensitive, self.is_of_this_step());
         if let Some(other) = self.other.filter(|other| *other != self.verdict)
             && !at_this_step
             && !self.pulled

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::line::{blades, capital};
 use super::number::Digits;
 use super::number::{count, grouped, rounded, short, speed, time, with_unit};
-use super::sentence::{AT_THIS_STEP, Facts, Sentence};
+use super::sentence::Facts;
 use super::{CommandLine, History, Sheet, Wall};
 use rubscope_solver::harmonic::lock_window;
 use rubscope_solver::model::Machine;
@@ -40,7 +40,11 @@ pub fn sheet<'a>(
     let mut fields = json!(report);
     fields["solver"]["wall_s"] = json!(wall.run_s);
     fields["solver"]["certainty_s"] = json!(wall.certainty_s);
-    fields["outcome"]["state"] = json!(capital(&state(&told)));
+    let [state, _] = headline.forms();
+    fields["outcome"]["state"] = match headline.is_of_this_step() {
+        true => json!(format!("{}. {state}", capital(&verdict(&headline)))),
+        false => json!(state),
+    };
     fields["outcome"]["history"] = json!(told.history);
     if let Some(growth) = headline.growth {
         fields["outcome"]["growth_1_s"] = json!(growth);
@@ -49,7 +53,7 @@ pub fn sheet<'a>(
     if let Some(note) = report.scene.share_note() {
         sheet.fact("notes", [note]);
     }
-    lines(report, wall).into_iter().for_each(|line| sheet.line(line));
+    lines_of(report, wall, &headline).into_iter().for_each(|line| sheet.line(line));
     let (words, changes) = changes;
     if !changes.is_empty() {
         sheet.line(format!("Changed during the run: {words}."));
@@ -67,6 +71,10 @@ pub fn sheet<'a>(
 
 /// Returns the summary as text, one fact a line.
 pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
+    lines_of(report, wall, &Facts::of(report))
+}
+
+fn lines_of(report: &RunReport, wall: Wall, headline: &Facts) -> Vec<String> {
     let (scene, machine) = (&report.scene, report.scene.machine());
     let mut lines = Vec::new();
     if !scene.title.is_empty() {
@@ -92,13 +100,9 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
         lines.push("Blade angles in the phase of the gap are neglected (linearised).".into());
     }
     lines.push(String::new());
-    let told = Facts::of(report).sentence(usize::MAX);
-    let (state, verdict) = (state(&told), report.outcome.verdict);
-    lines.push(match state == told.what {
-        true => format!("Verdict: {verdict}. {state}"),
-        false => format!("Verdict: {state}"),
-    });
-    lines.extend(told.history);
+    let [state, _] = headline.forms();
+    lines.push(format!("Verdict: {}. {state}", verdict(headline)));
+    lines.extend(headline.sentence(usize::MAX).history);
     lines.extend(report.outcome.message.as_ref().map(|message| format!("Reason: {message}.")));
     let outcome = &report.outcome;
     let doubtful = outcome.sensitive == Some(true)
@@ -118,13 +122,10 @@ pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
     lines
 }
 
-/// Returns the sentence on the motion at the end, behind `locked at this step only` or the like where
-/// another step changes the verdict.
-fn state(told: &Sentence) -> String {
-    match told.what.strip_prefix(AT_THIS_STEP) {
-        Some(what) => format!("{} at this step only.{what}", told.word.to_lowercase()),
-        None => told.what.clone(),
-    }
+/// Returns the verdict as a word, or as `locked at this step only` where another step changes it.
+fn verdict(facts: &Facts) -> String {
+    let only = if facts.is_of_this_step() { " at this step only" } else { "" };
+    format!("{}{only}", facts.verdict)
 }
 
 /// Describes the speed, the pulse, the contact law, the solver and the model of a scene.

@@ -82,12 +82,12 @@ impl Appearance {
         }
         let mut out = String::with_capacity(text.len());
         for letter in text.chars() {
-            let spelled = SPELLED.iter().find_map(|of| of.strip_prefix(letter));
-            match spelled {
-                Some(spelled) => out.push_str(spelled),
-                None if letter.is_ascii() || letter == CURSOR => out.push(letter),
-                None => out.push('?'),
+            if letter.is_ascii() || letter == CURSOR {
+                out.push(letter);
+                continue;
             }
+            let spelled = SPELLED.iter().find_map(|of| of.strip_prefix(letter));
+            out.push_str(spelled.unwrap_or("?"));
         }
         out
     }

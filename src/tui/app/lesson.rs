@@ -190,7 +190,7 @@ impl App {
         self.show_step(past);
     }
 
-    /// Shows the current step by the commands that a hand could give; one undo returns to `past`.
+    /// Shows the current step by commands; one undo returns to `past`.
     fn show_step(&mut self, past: Past) {
         let Some((lesson, progress)) = self.current_lesson() else { return };
         match self.step_commands(lesson, progress.step) {

@@ -1,6 +1,7 @@
 //! Everything that can be done in the explorer. A key, a click, a word after `:` and a line of
-//! `--lines` are commands, and a step of a lesson is a list of them; `update` executes them. The table in `table` gives the keys of a command,
-//! its words in help, footer and manual, and the group in which its keys are valid.
+//! `--lines` are commands, and a step of a lesson is a list of them; `update` executes them. The
+//! table in `table` gives the keys of a command, its words in help, footer and manual, and the group
+//! in which its keys are valid.
 
 pub mod chord;
 pub mod table;

@@ -14,7 +14,7 @@ pub struct FilmPlan {
     pub scene: CheckedScene,
     /// The live changes and pulses.
     pub script: Script,
-    /// Start of the last part, whose trace and spectrum are shown \[s\]: the latest change, or the
+    /// Start of the last part, whose spectrum is shown \[s\]: the latest change, or the
     /// end before it was extended.
     pub from_s: f64,
     /// End of the run \[s\].
@@ -117,7 +117,7 @@ impl FilmPlan {
         Some(Self { scene, script: Script::new(changes?), ..self.clone() })
     }
 
-    /// Returns the reference: the event solver, whose contact only pushes. `None` if the scene uses
+    /// Returns the scene of the reference: that of the event solver, whose contact only pushes. `None` if the scene uses
     /// the event solver already, has an elastic lining, which is a different machine, or has
     /// something else that the event solver does not support, and for a film with changes.
     pub fn reference(&self) -> Option<CheckedScene> {

@@ -1,5 +1,5 @@
 //! The film: a run computed ahead in slices short enough that a new order is not delayed, with its
-//! copies of the motion, trace, changes of contact, and verdict.
+//! copies of the motion, changes of contact, and verdict.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

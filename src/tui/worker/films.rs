@@ -1,4 +1,4 @@
-//! The films that an order wants, the sensitivity check, and the studies. When a knob is turned
+//! The films that an order wants, the checks of the run, and the studies. When a knob is turned
 //! faster than a run takes, one older film continues, so that a verdict still appears as often as a
 //! run can finish.
 
@@ -76,13 +76,13 @@ impl Films {
             Some(plan) if self.pinned.is_none() && self.own.plan == *plan => Some(self.own.clone()),
             plan => replanned(self.pinned.take(), plan.clone()),
         };
-        for film in self.with_pages() {
+        for film in self.all() {
             film.page.want(order.page, film.plan.end_s);
         }
     }
 
-    /// Returns the films whose curves are on the screen.
-    fn with_pages(&mut self) -> impl Iterator<Item = &mut Film> {
+    /// Returns the films, that of the run first.
+    fn all(&mut self) -> impl Iterator<Item = &mut Film> {
         std::iter::once(&mut self.own).chain(&mut self.other).chain(&mut self.pinned)
     }
 
@@ -103,7 +103,7 @@ impl Films {
         let is_done = self.own.is_done();
         // A page gets a third of the time until the run is computed.
         if let Some(film) =
-            self.with_pages().find(|film| film.has_page_due() && (is_done || is_first(film)))
+            self.all().find(|film| film.has_page_due() && (is_done || is_first(film)))
         {
             return film.compute_page();
         }
@@ -111,9 +111,7 @@ impl Films {
         // The verdict comes first; then the run with the least time so far, so that a quick one
         // does not wait for a slow one.
         let alone = !known && self.own.wall < ALONE;
-        let others = [&mut self.other, &mut self.pinned];
-        let others = others.into_iter().flatten().filter(|_| !alone);
-        let films = std::iter::once(&mut self.own).chain(others);
+        let films = self.all().take(if alone { 1 } else { usize::MAX });
         if let Some(film) = films.filter(|film| !film.is_done()).min_by_key(|film| film.wall) {
             film.compute();
             if !known {
