@@ -68,13 +68,16 @@ const MOST_FILES: usize = 200;
 /// Largest number of directory entries that are examined.
 const MOST_NAMES: usize = 20_000;
 
-/// A scene file in the list of scenes.
+/// A scene in the list of scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundScene {
-    /// Name of the file in its directory, or of the built-in scene.
+    /// Name of the built-in scene, or of the file in its directory; the open one has its path, as on
+    /// the command line.
     pub name: String,
-    /// The scene, or the reason in one line why the file contains none.
+    /// The checked scene, or the reason in one line why it cannot be opened.
     pub scene: Result<CheckedScene, String>,
+    /// Whether it is a file; otherwise it is built in.
+    pub file: bool,
 }
 
 /// Returns the built-in scenes; they are parsed once.
@@ -83,7 +86,7 @@ pub fn builtin_scenes() -> &'static [FoundScene] {
     READ.get_or_init(|| {
         let read = |name: &str| Scene::builtin(name).and_then(|scene| scene.checked());
         let scene = |name: &str| read(name).map_err(|error| clean(&error.to_string()));
-        let found = |name: &str| FoundScene { name: name.into(), scene: scene(name) };
+        let found = |name: &str| FoundScene { name: name.into(), scene: scene(name), file: false };
         BUILTIN.iter().map(|builtin| found(builtin.name)).collect()
     })
 }
@@ -136,7 +139,8 @@ fn load_scene(directory: &Path, name: String) -> Option<FoundScene> {
     }
     let path = path.to_str()?;
     let read = Scene::load(path).and_then(|scene| scene.checked());
-    Some(FoundScene { name, scene: read.map_err(|error| clean(&error.to_string())) })
+    let scene = read.map_err(|error| clean(&error.to_string()));
+    Some(FoundScene { name, scene, file: true })
 }
 
 #[cfg(test)]

@@ -251,8 +251,8 @@ impl Lines {
         }
         match std::mem::replace(&mut self.app.dialogue.mode, InputMode::Main) {
             InputMode::Main => Reply::Done(doubt),
-            InputMode::Scenes => self.list("scene"),
-            InputMode::Lessons => self.list("lesson"),
+            InputMode::Palette("scene ", _) => self.list("scene"),
+            InputMode::Palette("lesson ", _) => self.list("lesson"),
             _ => Reply::Refused(format!("{what} needs a screen, or more words; help")),
         }
     }

@@ -221,7 +221,7 @@ fn show<B: Backend>(
     // A screen that is too small shows only a note about its size, and no message.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
         // Keys may now answer an open question.
-        app.dialogue.asked = true;
+        app.dialogue.unseen = false;
         host.unseen(None);
     }
     Ok(())

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::app::{App, Cursor, HelpState, InputMode, Writing};
+use super::app::{App, Cursor, InputMode, Writing};
 use crate::file;
 use crate::sheet::line::{self, clean};
 use crate::tui::app::layout::MOST_BESIDE;
-use crate::tui::app::play::RATES;
+use crate::tui::app::play::SLOWEST;
 use crate::tui::command::chord::Chord;
 use crate::tui::command::table::{Group, lookup};
 use crate::tui::command::{Command, Effect, Purpose};
@@ -146,17 +146,12 @@ impl App {
                 return Ok(Effect::Mouse(self.mouse.on));
             }
             Command::Copy => return Ok(Effect::Copy(self.copied())),
-            Command::Palette(typed) => {
-                self.dialogue.open(InputMode::Palette(typed.into()));
-                return Ok(self.find_scenes());
-            }
-            Command::Scenes => {
-                self.dialogue.open(InputMode::Scenes);
+            Command::Palette(word) => {
+                self.dialogue.open(InputMode::Palette(word, Field::default()));
                 return Ok(self.find_scenes());
             }
             command if self.move_in_list(&command) => {}
             Command::Accept => return self.accept(),
-            Command::Replace => return self.replace_file(),
             Command::Write(purpose, name) => return self.write(purpose, &name, false),
             Command::Open => return self.open_cursor(),
             Command::PutCursor([across, up]) => return self.click_cursor(Cursor { across, up }),
@@ -175,24 +170,10 @@ impl App {
             }
             Command::Plain => self.turn_plain()?,
             Command::Nothing(why) => return Err(why),
-            command => self.change(command),
-        }
-        Ok(Effect::None)
-    }
-
-    /// Executes a command that has no effect outside the state and is not refused.
-    fn change(&mut self, command: Command) {
-        match command {
             Command::Close => self.close(),
-            Command::Help => self.dialogue.open(InputMode::Help(HelpState::default())),
-            Command::Search => {
-                let searching = HelpState { searches: true, ..HelpState::default() };
-                self.dialogue.open(InputMode::Help(searching));
-            }
+            Command::Help => self.dialogue.open(InputMode::Help(Field::default())),
+            Command::Search => self.dialogue.open(InputMode::Search(Field::default())),
             Command::Edit(edit) => self.edit(edit),
-            Command::TurnNote => {
-                self.dialogue.note_page = self.dialogue.note_page.wrapping_add(1);
-            }
             Command::Ask(purpose) => self.ask_name(purpose),
             Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
             Command::NextTheme => {
@@ -231,23 +212,14 @@ impl App {
             }
             Command::Select(place) => self.select(place),
             Command::SetPart(place, part) => self.set_part(place, part),
-            command => self.change_run(command),
-        }
-    }
-
-    /// Executes a command of the playback, the charts or their cursor.
-    fn change_run(&mut self, command: Command) {
-        match command {
             Command::Pause | Command::Step | Command::Jump => self.go_on(&command),
             Command::SlowAtEvents => {
                 let said =
                     ["the same pace all the time", "slower at changes of contact, faster between"];
                 self.status = flipped(&mut self.play.tempo.slow_at_events, said);
             }
-            Command::Slower => self.play.tempo.rate = self.play.tempo.rate.saturating_sub(1),
-            Command::Faster => {
-                self.play.tempo.rate = (self.play.tempo.rate + 1).min(RATES.len() - 1);
-            }
+            Command::Slower => self.play.tempo.rate = (self.play.tempo.rate - 1).max(SLOWEST),
+            Command::Faster => self.play.tempo.rate = (self.play.tempo.rate + 1).min(0),
             Command::Restart => {
                 self.stop_reading();
                 self.restart();
@@ -283,8 +255,9 @@ impl App {
             Command::Cursor { right, up, coarse } => self.move_cursor(right, up, coarse),
             Command::OpenRun(scene) => self.open_run(*scene),
             Command::JumpTo { path, value, to } => self.jump_to_limit(path, value, &to),
-            _ => {}
+            Command::First | Command::Last => {}
         }
+        Ok(Effect::None)
     }
 
     /// Starts writing a file. If it exists and `replace` is false, the result will ask the user.
@@ -326,17 +299,6 @@ impl App {
         }
         self.files.writing = Some(Writing { name: name.into(), purpose, undisturbed: true });
         Ok(Effect::Write(FileJob { path: self.files.directory.join(name), content, replace }))
-    }
-
-    /// Replaces the file of the open question. A key typed before the question was drawn does not
-    /// answer it.
-    fn replace_file(&mut self) -> Result<Effect, String> {
-        match self.dialogue.mode.clone() {
-            InputMode::Replacing(purpose, name) if self.dialogue.asked => {
-                self.write(purpose, &name, true)
-            }
-            _ => Ok(Effect::None),
-        }
     }
 }
 

@@ -9,7 +9,7 @@ const MODES: [(&str, &str); 8] = [
     ("\r12", "12_"),
     (":", "or any words"),
     ("?", "Type to find"),
-    ("g", "Lessons: Enter begins one"),
+    ("g", "Enter begins one"),
     ("g\r", "lower"),
     ("s", "save the scene as"),
     ("i", "Esc knobs"),

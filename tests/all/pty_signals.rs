@@ -87,7 +87,7 @@ fn a_signal_ends_it_in_every_state_read_or_not() {
     let states = [
         ("\r12", "12_"),
         ("?", "Type to find"),
-        ("g", "Lessons: Enter begins one"),
+        ("g", "Enter begins one"),
         ("s", "save the scene as"),
         (" ", "go on"),
         ("c", "bilateral:"),
@@ -178,7 +178,7 @@ fn it_can_be_stopped_and_continued_in_every_dialog() {
         ("\r12", "12_"),
         ("s", "save the scene as"),
         ("?", "Type to find"),
-        ("g", "Lessons: Enter begins one"),
+        ("g", "Enter begins one"),
     ] {
         let mut terminal = job("read answer; fg; echo ended with $?");
         terminal.wait_for(" LOCKED ");

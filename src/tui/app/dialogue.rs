@@ -3,27 +3,25 @@
 
 use super::help::help_bottom;
 use super::layout::placed;
-use super::model::{App, Dialogue, HelpState, InputMode, Reading};
-use super::words;
+use super::model::{App, Dialogue, InputMode, Reading};
 use crate::tui::command::table::Group;
 use crate::tui::command::{Command, Effect};
 use crate::tui::field::{Edit, Field};
-use crate::tui::lessons;
 
 impl Dialogue {
     pub fn is_closed(&self) -> bool {
         self.mode == InputMode::Main
     }
 
-    /// Opens a dialogue and resets the page of the note.
+    /// Opens a dialogue.
     pub fn open(&mut self, mode: InputMode) {
-        (self.mode, self.place, self.note_page) = (mode, None, 0);
+        (self.mode, self.place) = (mode, None);
     }
 
     /// Opens a question, which keys can answer only after a frame has shown it.
     pub fn ask(&mut self, mode: InputMode) {
         self.open(mode);
-        self.asked = false;
+        self.unseen = true;
     }
 
     pub fn close(&mut self) {
@@ -33,10 +31,11 @@ impl Dialogue {
     /// Returns the text field that has the keyboard; `None` if no dialogue with one is open.
     pub fn typed(&mut self) -> Option<&mut Field> {
         match &mut self.mode {
-            InputMode::Typing(text) | InputMode::Naming(_, text) | InputMode::Palette(text) => {
-                Some(text)
-            }
-            InputMode::Help(help) => Some(&mut help.filter),
+            InputMode::Typing(text)
+            | InputMode::Naming(_, text)
+            | InputMode::Palette(_, text)
+            | InputMode::Help(text)
+            | InputMode::Search(text) => Some(text),
             _ => None,
         }
     }
@@ -51,14 +50,12 @@ impl App {
             InputMode::Main if self.is_asked() => Group::Question,
             InputMode::Main if self.reading.on => Group::Reading,
             InputMode::Main => Group::Program,
-            InputMode::Help(help) if help.is_searched() => Group::Filter,
-            InputMode::Help(_) => Group::Help,
-            InputMode::Palette(_) => Group::Palette,
+            InputMode::Help(filter) if filter.text().is_empty() => Group::Help,
+            InputMode::Help(_) | InputMode::Search(_) => Group::Filter,
+            InputMode::Palette(..) => Group::Palette,
             InputMode::Typing(_) | InputMode::Naming(..) => Group::Typing,
             InputMode::Replacing(..) => Group::Replacing,
             InputMode::Leaving => Group::Leaving,
-            InputMode::Lessons => Group::Lessons,
-            InputMode::Scenes => Group::SceneList,
         }
     }
 
@@ -74,15 +71,8 @@ impl App {
     /// Takes what is typed or selected in the open dialogue, or the selected answer of a lesson.
     pub fn accept(&mut self) -> Result<Effect, String> {
         match self.dialogue.mode.clone() {
-            InputMode::Palette(typed) => return self.choose_command(&typed.text()),
+            InputMode::Palette(word, typed) => return self.choose_command(word, &typed),
             InputMode::Naming(purpose, name) => return self.write(purpose, &name.text(), false),
-            InputMode::Lessons => self.begin_lesson(self.dialogue.place.unwrap_or(0)),
-            InputMode::Scenes => {
-                let entries = self.scene_entries();
-                if let Some(entry) = entries.get(self.scene_place(&entries)) {
-                    self.open_entry(entry)?;
-                }
-            }
             InputMode::Typing(text) => self.take_typed(&text.text()),
             InputMode::Main => {
                 if let Some(choice) = self.lessons.progress.as_ref().map(|progress| progress.choice)
@@ -90,7 +80,10 @@ impl App {
                     self.answer(choice);
                 }
             }
-            InputMode::Help(_) | InputMode::Replacing(..) | InputMode::Leaving => {}
+            InputMode::Replacing(purpose, name) if !self.dialogue.unseen => {
+                return self.write(purpose, &name, true);
+            }
+            _ => {}
         }
         Ok(Effect::None)
     }
@@ -100,7 +93,7 @@ impl App {
     pub fn leave(&mut self) -> Effect {
         if self.dialogue.mode == InputMode::Leaving {
             // A key typed before the question was drawn does not answer it.
-            return if self.dialogue.asked { Effect::Quit } else { Effect::None };
+            return if self.dialogue.unseen { Effect::None } else { Effect::Quit };
         }
         if self.has_open() {
             self.close();
@@ -118,17 +111,11 @@ impl App {
     /// other law, or the full screen.
     pub fn close(&mut self) {
         self.knobs.refusal = None;
-        match &self.dialogue.mode {
-            InputMode::Help(help) if help.is_searched() => {
-                self.dialogue.open(InputMode::Help(HelpState::default()));
-            }
-            InputMode::Main => self.close_over_main(),
-            _ => self.dialogue.close(),
-        }
-    }
-
-    fn close_over_main(&mut self) {
-        if self.reading != Reading::default() || self.play.middle_s.is_some() {
+        if self.keyboard() == Group::Filter {
+            self.dialogue.open(InputMode::Help(Field::default()));
+        } else if !self.dialogue.is_closed() {
+            self.dialogue.close();
+        } else if self.reading != Reading::default() || self.play.middle_s.is_some() {
             self.stop_reading();
         } else if self.compares() {
             self.run.set_compare(false);
@@ -156,20 +143,17 @@ impl App {
     /// Moves the selection of the open list, or scrolls the help; returns false for other
     /// commands.
     pub fn move_in_list(&mut self, command: &Command) -> bool {
-        let last = |count: usize| count.saturating_sub(1);
-        let (usual, last) = match &self.dialogue.mode {
-            InputMode::Help(help) => (0, help_bottom(self, help)),
-            InputMode::Palette(typed) => (0, last(words::found(self, &typed.text()).len())),
-            InputMode::Lessons => (0, last(lessons::all().len())),
-            InputMode::Scenes => {
-                let entries = self.scene_entries();
-                (self.scene_place(&entries), last(entries.len()))
+        let (from, last) = match &self.dialogue.mode {
+            InputMode::Help(filter) | InputMode::Search(filter) => {
+                let last = help_bottom(self, filter);
+                (self.dialogue.place.unwrap_or(0).min(last), last)
+            }
+            InputMode::Palette(word, typed) => {
+                let (found, place) = self.palette(word, typed);
+                (place, found.len().saturating_sub(1))
             }
             _ => return false,
         };
-        // A resize can leave the place past the end; then a key up would have no visible effect at
-        // first.
-        let from = self.dialogue.place.unwrap_or(usual).min(last);
         let page = usize::from(placed(self).body.height.saturating_sub(2)).max(1);
         let to = match command {
             Command::Below => from + 1,
@@ -180,7 +164,7 @@ impl App {
             Command::Last => last,
             _ => return false,
         };
-        (self.dialogue.place, self.dialogue.note_page) = (Some(to.min(last)), 0);
+        self.dialogue.place = Some(to.min(last));
         true
     }
 
@@ -204,15 +188,15 @@ mod tests {
     #[test]
     fn what_is_typed_is_of_the_open_dialogue_and_a_list_begins_at_its_top() {
         let mut app = on_screen();
-        assert!(app.dialogue.is_closed() && app.dialogue.asked && app.dialogue.typed().is_none());
-        app.dialogue.open(InputMode::Palette("ab".into()));
+        assert!(app.dialogue.is_closed() && !app.dialogue.unseen && app.dialogue.typed().is_none());
+        app.dialogue.open(InputMode::Palette("", "ab".into()));
         app.dialogue.place = Some(3);
         app.typed_on();
         assert_eq!(app.dialogue.place, None);
         app.dialogue.ask(InputMode::Replacing(Purpose::Save, "a".into()));
-        assert!(!app.dialogue.asked);
-        app.dialogue.asked = true;
+        assert!(app.dialogue.unseen);
+        app.dialogue.unseen = false;
         app.dialogue.close();
-        assert!(app.dialogue.asked && app.dialogue.is_closed());
+        assert!(!app.dialogue.unseen && app.dialogue.is_closed());
     }
 }

@@ -3,15 +3,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
-
 use super::model::{App, Files, InputMode, Source, Writing};
 use crate::sheet::line::clean;
 use crate::tui::command::{Effect, Purpose};
 use crate::tui::files::{FileResult, FoundScene, FoundScenes, builtin_scenes};
-use crate::tui::list::draw_list;
-use crate::tui::text::{columns, print, shorten, wrap};
-use crate::tui::theme::Role;
 use rubscope_solver::scene::keys::differences;
 use rubscope_solver::scene::{CheckedScene, DEFAULT, Scene};
 
@@ -42,59 +37,34 @@ impl Files {
     }
 }
 
-/// One entry of the list of scenes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneEntry {
-    /// Name or path, as on the command line.
-    pub name: String,
-    /// The checked scene, or why it cannot be opened.
-    pub scene: Result<CheckedScene, String>,
-    /// Whether it is a file; otherwise it is built in.
-    pub file: bool,
-    /// Whether it is the open scene.
-    pub open: bool,
-}
-
 impl App {
     /// Lists every scene that can be opened: files first, then the built-in ones, then unreadable
     /// files. An open scene from another directory comes before all.
-    pub fn scene_entries(&self) -> Vec<SceneEntry> {
-        let open = self.files.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
-        let entry = |found: &FoundScene, file, open| {
-            let FoundScene { name, scene } = found.clone();
-            SceneEntry { name, scene, file, open }
-        };
-        let builtin = builtin_scenes().iter().map(|one| entry(one, false, one.name == open));
-        let path = |name: &String| self.files.directory.join(name);
-        let is_open = |name: &String| same_path(&path(name), Path::new(open));
-        let files = self.files.found.files.iter().map(|one| entry(one, true, is_open(&one.name)));
-        let mut entries: Vec<SceneEntry> = files.chain(builtin).collect();
+    pub fn scene_entries(&self) -> Vec<FoundScene> {
+        let found = self.files.found.files.iter().chain(builtin_scenes());
+        let mut entries: Vec<FoundScene> = found.cloned().collect();
         // Other programs may keep TOML files here too: those are no scenes, so they go last.
         entries.sort_by_key(|entry| entry.scene.is_err());
         if let Some(source) = &self.files.source
-            && !entries.iter().any(|entry| entry.open)
+            && !entries.iter().any(|entry| self.is_open_scene(entry))
         {
-            let read = source.scene.checked().map_err(|error| error.to_string());
-            let name = source.name.clone();
-            entries.insert(0, SceneEntry { name, scene: read, file: true, open: true });
+            let scene = source.scene.checked().map_err(|error| error.to_string());
+            entries.insert(0, FoundScene { name: source.name.clone(), scene, file: true });
         }
         entries
     }
 
-    /// Returns the index of the selected scene: the chosen one, or the open one.
-    pub fn scene_place(&self, entries: &[SceneEntry]) -> usize {
-        let open = || entries.iter().position(|entry| entry.open).unwrap_or(0);
-        self.dialogue.place.unwrap_or_else(open).min(entries.len().saturating_sub(1))
+    /// Returns whether an entry of the list is the open scene.
+    pub fn is_open_scene(&self, entry: &FoundScene) -> bool {
+        let open = self.files.source.as_ref().map_or(DEFAULT, |source| source.name.as_str());
+        let path = self.files.directory.join(&entry.name);
+        // The same file may be named with and without `./`.
+        let parts = |path: &Path| -> PathBuf {
+            path.components().filter(|part| *part != Component::CurDir).collect()
+        };
+        entry.name == open || (entry.file && parts(&path) == parts(Path::new(open)))
     }
-}
 
-/// Returns whether two paths name the same file, apart from `./`.
-fn same_path<'a>(one: &'a Path, other: &'a Path) -> bool {
-    let parts = |path: &'a Path| path.components().filter(|part| *part != Component::CurDir);
-    parts(one).eq(parts(other))
-}
-
-impl App {
     /// Asks for the name of the file to write.
     pub fn ask_name(&mut self, purpose: Purpose) {
         let name = match purpose {
@@ -135,27 +105,15 @@ impl App {
         Effect::FindScenes(self.files.directory.clone())
     }
 
-    /// Applies the list of scenes that were read; the selection stays on the same scene.
-    pub fn scenes_found(&mut self, found: FoundScenes) {
-        let is_listed = self.dialogue.mode == InputMode::Scenes;
-        let chosen = self.dialogue.place.filter(|_| is_listed);
-        let chosen = chosen.and_then(|place| self.scene_entries().get(place).cloned());
-        self.files.found = found;
-        if let Some(chosen) = chosen {
-            let same = |entry: &SceneEntry| entry.name == chosen.name && entry.file == chosen.file;
-            self.dialogue.place = self.scene_entries().iter().position(same);
-        }
-    }
-
     /// Opens a scene of the list. Undo returns to the previous one.
     ///
     /// # Errors
     /// One line that says why the file has no valid scene.
-    pub fn open_entry(&mut self, entry: &SceneEntry) -> Result<(), String> {
+    pub fn open_entry(&mut self, entry: &FoundScene) -> Result<(), String> {
         let name = clean(&entry.name);
         let refused = |why: &String| format!("{name} cannot be opened: {why}");
         let scene = entry.scene.as_ref().map_err(refused)?;
-        let path = match entry.file && !entry.open {
+        let path = match entry.file && !self.is_open_scene(entry) {
             true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
             false => entry.name.clone(),
         };
@@ -222,107 +180,6 @@ impl App {
     }
 }
 
-/// Width from which the note is beside the list.
-const BESIDE_FROM: u16 = 100;
-/// Width of the list beside a note.
-const LIST_WIDTH: u16 = 64;
-/// Widest scene name.
-const NAME_WIDTH: usize = 24;
-
-/// Draws the list of scenes.
-pub fn draw_scenes(app: &App, buffer: &mut Buffer, area: Rect) {
-    let look = &app.appearance;
-    let mark = look.ellipsis();
-    let entries = app.scene_entries();
-    let place = app.scene_place(&entries);
-    let found = &app.files.found;
-    let head = match (&found.missing, found.reading) {
-        (_, true) => "Scenes: reading the files of this folder".to_string(),
-        (Some(missing), false) => format!("Scenes: {missing}"),
-        (None, false) => "Scenes: Enter opens one, u returns to the previous one".to_string(),
-    };
-    let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
-    print(buffer, area, 0, &shorten(&look.spell(&head), usize::from(area.width), mark), bold);
-    let area = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-    let selected = entries.get(place);
-    let beside = area.width >= BESIDE_FROM;
-    let notes_width = if beside { area.width - LIST_WIDTH - 2 } else { area.width };
-    let notes =
-        selected.map_or(Vec::new(), |entry| note_lines(app, entry, usize::from(notes_width)));
-    let (list, text) = if beside {
-        let text = Rect { x: area.x + LIST_WIDTH + 2, width: notes_width, ..area };
-        (Rect { width: LIST_WIDTH, ..area }, text)
-    } else {
-        let wanted = u16::try_from(notes.len() + 1).unwrap_or(u16::MAX);
-        let rows = wanted.min(area.height / 2);
-        let list = Rect { height: area.height.saturating_sub(rows), ..area };
-        (list, Rect { y: list.bottom(), height: rows, ..area })
-    };
-    draw_entries(app, buffer, list, &entries, place);
-    if let Some(entry) = selected {
-        draw_note(app, buffer, text, entry, &notes);
-    }
-}
-
-fn draw_entries(app: &App, buffer: &mut Buffer, area: Rect, entries: &[SceneEntry], place: usize) {
-    let look = &app.appearance;
-    let mark = look.ellipsis();
-    let names = entries.iter().map(|entry| columns(&entry.name));
-    let wide = names.max().unwrap_or(0).min(NAME_WIDTH);
-    let line = |entry: &SceneEntry| {
-        let (title, role) = match &entry.scene {
-            Ok(scene) => (scene.title.as_str(), Role::Text),
-            Err(_) => ("cannot be read", Role::Trouble),
-        };
-        let open = if entry.open { '*' } else { ' ' };
-        let name = shorten(&look.spell(&entry.name), wide, mark);
-        let pad = " ".repeat(wide.saturating_sub(columns(&name)));
-        let text = format!("{open} {name}{pad}  {}", look.spell(title));
-        (shorten(&text, usize::from(area.width.saturating_sub(1)), mark), role)
-    };
-    draw_list(look, buffer, area, entries.iter().map(line), place);
-}
-
-/// Returns the note of a scene, or why it cannot be opened, as lines.
-fn note_lines(app: &App, entry: &SceneEntry, width: usize) -> Vec<(String, Role)> {
-    let (text, role) = match &entry.scene {
-        Ok(scene) if scene.note.is_empty() => ("It has no note.", Role::Quiet),
-        Ok(scene) => (scene.note.as_str(), Role::Text),
-        Err(error) => (error.as_str(), Role::Trouble),
-    };
-    wrap(&app.appearance.spell(text), width).into_iter().map(|line| (line, role)).collect()
-}
-
-/// Prints a page of the note below a rule with the scene's name.
-fn draw_note(
-    app: &App,
-    buffer: &mut Buffer,
-    area: Rect,
-    entry: &SceneEntry,
-    lines: &[(String, Role)],
-) {
-    let look = &app.appearance;
-    let (width, mark) = (usize::from(area.width), look.ellipsis());
-    let room = usize::from(area.height.saturating_sub(1)).max(1);
-    let pages = lines.len().div_ceil(room).max(1);
-    let page = app.dialogue.note_page % pages;
-    let open = if entry.open { " (open)" } else { "" };
-    let more = match pages {
-        1 => String::new(),
-        _ => format!("  {}/{pages}, Space: more", page + 1),
-    };
-    let left = width.saturating_sub(columns(open) + columns(&more) + 3);
-    let name = shorten(&look.spell(&entry.name), left, mark);
-    let dash = look.either("─", "-");
-    let head = format!("{dash} {name}{open}{more} ");
-    let rule = dash.repeat(width.saturating_sub(columns(&head)));
-    print(buffer, area, 0, &format!("{head}{rule}"), look.style(Role::Quiet));
-    let shown = lines.iter().skip(page * room);
-    for (row, (text, role)) in (1..area.height).zip(shown) {
-        print(buffer, area, row, text, look.style(*role));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -378,7 +235,7 @@ mod tests {
         // Nor does a key pressed before the question was drawn.
         assert_eq!(press(&mut app, KeyCode::Char('y')), Effect::None);
         assert!(matches!(app.dialogue.mode, InputMode::Replacing(..)));
-        app.dialogue.asked = true;
+        app.dialogue.unseen = false;
         let Effect::Write(job) = press(&mut app, KeyCode::Char('y')) else { panic!() };
         assert!(job.replace);
         // A key pressed before the result arrives suppresses the question: `y` copies instead.
@@ -398,35 +255,35 @@ mod tests {
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::None);
         // Until the question is drawn, no key answers it.
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::None);
-        app.dialogue.asked = true;
+        app.dialogue.unseen = false;
         assert_eq!(press(&mut app, KeyCode::Char('s')), Effect::None);
         assert!(matches!(press(&mut app, KeyCode::Enter), Effect::Write(_)));
         app.written(FileResult::Written);
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::Quit);
         press(&mut app, KeyCode::Right);
         press(&mut app, KeyCode::Char('q'));
-        app.dialogue.asked = true;
+        app.dialogue.unseen = false;
         assert_eq!(press(&mut app, KeyCode::Char('q')), Effect::Quit);
     }
 
     #[test]
     fn a_folder_that_does_not_answer_is_asked_once_and_holds_nothing_up() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
-        assert!(matches!(app.act(Command::Scenes), Effect::FindScenes(_)));
+        assert!(matches!(app.act(Command::Palette("scene ")), Effect::FindScenes(_)));
         app.act(Command::Close);
-        assert_eq!(app.act(Command::Scenes), Effect::None);
+        assert_eq!(app.act(Command::Palette("scene ")), Effect::None);
         app.act(Command::Below);
         let chosen = app.scene_entries()[1].name.clone();
         // A file that arrives late does not move the selection.
         let scene = Ok(Scene::base().checked().unwrap());
-        let files = vec![FoundScene { name: "late.toml".into(), scene }];
+        let files = vec![FoundScene { name: "late.toml".into(), scene, file: true }];
         app.scenes_found(FoundScenes { files, ..FoundScenes::default() });
         // Files come before built-in scenes.
         assert_eq!(app.scene_entries()[0].name, "late.toml");
         app.act(Command::Accept);
         assert_eq!(app.files.source.as_ref().unwrap().name, chosen);
         // The directory is read again.
-        assert!(matches!(app.act(Command::Scenes), Effect::FindScenes(_)));
+        assert!(matches!(app.act(Command::Palette("scene ")), Effect::FindScenes(_)));
     }
 
     #[test]
@@ -434,7 +291,6 @@ mod tests {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
         app.files.source = Some(Source { name: "other/mine.toml".into(), scene: Scene::base() });
         let entries = app.scene_entries();
-        assert!(entries[0].open && entries[0].name == "other/mine.toml");
-        assert_eq!(app.scene_place(&entries), 0);
+        assert!(app.is_open_scene(&entries[0]) && entries[0].name == "other/mine.toml");
     }
 }

@@ -5,18 +5,12 @@ use strum::IntoEnumIterator;
 
 use super::glossary;
 use super::layout::placed;
-use super::model::{App, HelpState};
+use super::model::App;
 use crate::tui::command::table::{self, Binding, Group};
+use crate::tui::field::Field;
 use crate::tui::knobs::{KNOBS, Knob};
 use crate::tui::text::{print, shorten, wrap};
 use crate::tui::theme::Role;
-
-impl HelpState {
-    /// Returns whether the help is searched, so that every letter goes into the search.
-    pub fn is_searched(&self) -> bool {
-        self.searches || !self.filter.text().is_empty()
-    }
-}
 
 /// Rows above the list, for the search text.
 const ABOVE: u16 = 1;
@@ -138,9 +132,9 @@ fn list(body: Rect) -> Rect {
 }
 
 /// Returns the largest scroll position of the help.
-pub fn help_bottom(app: &App, help: &HelpState) -> usize {
+pub fn help_bottom(app: &App, filter: &Field) -> usize {
     let area = list(placed(app).body);
-    lines(app, area, &help.filter.text()).0.len().saturating_sub(usize::from(area.height))
+    lines(app, area, &filter.text()).0.len().saturating_sub(usize::from(area.height))
 }
 
 /// Returns the entries of the help that match `words`, as lines of `width` columns.
@@ -153,11 +147,11 @@ pub fn help_text(app: &App, width: u16, words: &str) -> Vec<String> {
         .collect()
 }
 
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, filter: &Field) {
     let look = &app.appearance;
     let width = usize::from(area.width);
     let below = list(area);
-    let (lines, count) = lines(app, below, &help.filter.text());
+    let (lines, count) = lines(app, below, &filter.text());
     let first =
         app.dialogue.place.unwrap_or(0).min(lines.len().saturating_sub(usize::from(below.height)));
     let last = (first + usize::from(below.height)).min(lines.len());
@@ -167,10 +161,10 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, help: &HelpState) {
         0 => "no match".to_string(),
         count => format!("{count} found"),
     };
-    let head = match !help.is_searched() {
-        true => "Type to find a key, a word or a symbol".to_string(),
-        false => {
-            let typed = help.filter.shown(room.saturating_sub(found.len() + 8));
+    let head = match app.keyboard() {
+        Group::Help => "Type to find a key, a word or a symbol".to_string(),
+        _ => {
+            let typed = filter.shown(room.saturating_sub(found.len() + 8));
             format!("find: {typed}  {found}")
         }
     };
@@ -203,7 +197,7 @@ mod tests {
         let app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Braille);
         let area = Rect::new(0, 0, 130, 400);
         let mut buffer = Buffer::empty(area);
-        draw(&app, &mut buffer, area, &HelpState { filter: filter.into(), ..HelpState::default() });
+        draw(&app, &mut buffer, area, &filter.into());
         buffer.content.iter().map(|cell| cell.symbol().to_string()).collect()
     }
 

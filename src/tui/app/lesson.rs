@@ -1,5 +1,5 @@
-//! The open lesson: its progress, going through its steps and answers, the list of lessons, and the
-//! current step on the screen.
+//! The open lesson: its progress, going through its steps and answers, and the current step on the
+//! screen.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 use super::model::{App, InputMode, LessonProgress, Past, StepProgress};
 use crate::sheet::number::with_speeds;
 use crate::tui::command::Command;
+use crate::tui::field::Field;
 use crate::tui::knobs::{knob_of, place_of};
 use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
-use crate::tui::list::draw_list as draw_lines;
-use crate::tui::text::{columns, print, shorten, whole_parts, wrap};
+use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::scene::{SceneError, Value};
@@ -93,11 +93,7 @@ impl App {
     /// Opens the list of lessons, or goes to the next step.
     pub fn guide(&mut self) {
         let Some((lesson, progress)) = self.current_lesson() else {
-            let done = &self.lessons.done;
-            let next = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
-            self.dialogue.open(InputMode::Lessons);
-            self.dialogue.place = next;
-            return;
+            return self.dialogue.open(InputMode::Palette("lesson ", Field::default()));
         };
         let (number, step) = (progress.lesson, progress.step);
         if self.is_asked() {
@@ -227,39 +223,6 @@ impl App {
 
 /// Width from which the question stays above its answer.
 const WIDE: usize = 110;
-
-/// Draws the list of lessons with the progress in each.
-pub fn draw_list(app: &App, buffer: &mut Buffer, area: Rect) {
-    let look = &app.appearance;
-    let width = usize::from(area.width);
-    let bold = look.style(Role::Text).add_modifier(Modifier::BOLD);
-    let head = "Lessons: Enter begins one, g goes on, B back, G leaves";
-    print(buffer, area, 0, &whole_parts(head, width, 1).join(""), bold);
-    let line = |(index, lesson): (usize, &Lesson)| {
-        let (done, steps) = (app.lessons.done.count(lesson), lesson.steps.len());
-        // A step that was skipped comes before the last completed one.
-        let passed = app.lessons.done.next(lesson).filter(|next| *next < done);
-        let done = if done == steps { "done".to_string() } else { format!("{done}/{steps}") };
-        let name = |title: &str| format!(" {done:>4}  {}. {title}", index + 1);
-        let [whole, brief] = [lesson.title.as_str(), lesson.brief()].map(name);
-        let minutes = format!("   {} min", lesson.minutes());
-        let needs = match passed {
-            Some(step) => format!("{minutes}, go on at step {}", step + 1),
-            None => format!("{minutes}, needs {}", lesson.needs),
-        };
-        // Parts that do not fit are omitted.
-        let ways = [whole.clone() + &needs, whole + &minutes, brief.clone() + &minutes, brief];
-        let ways = ways.map(|way| look.spell(&way));
-        let fits = ways.iter().find(|way| columns(way) < width);
-        (fits.unwrap_or(&ways[3]).clone(), Role::Text)
-    };
-    let lines = lessons::all().iter().enumerate().map(line);
-    let below = Rect { y: area.y + 2, height: area.height.saturating_sub(2), ..area };
-    let first = draw_lines(look, buffer, below, lines, app.dialogue.place.unwrap_or(0));
-    for (row, index) in (below.y..below.bottom()).zip(first..lessons::all().len()) {
-        app.note(Rect { y: row, height: 1, ..below }, Command::Lesson(index));
-    }
-}
 
 /// A line and its colour.
 type StepLine = (String, Role);

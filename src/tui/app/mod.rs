@@ -19,7 +19,7 @@ mod run;
 mod verdict;
 pub mod words;
 
-pub use model::{App, Cursor, HelpState, InputMode, Parts, Source, Writing};
+pub use model::{App, Cursor, InputMode, Parts, Source, Writing};
 
 #[cfg(test)]
 pub mod tests {

@@ -81,7 +81,7 @@ impl App {
             dialogue: Dialogue::default(),
             files: Files::of(scene.clone()),
             lessons: Lessons::default(),
-            mouse: Mouse::default(),
+            mouse: Mouse { on: true, ..Mouse::default() },
             appearance: Appearance { rpm, ..Appearance::new(theme, marker) },
             machine,
             locks: Default::default(),
@@ -157,8 +157,8 @@ pub struct Play {
 /// Settings of playback that undo restores.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tempo {
-    /// Index in `RATES`.
-    pub rate: usize,
+    /// Simulated time over wall-clock time, as a place of `round_number`; 0 is real time.
+    pub rate: i32,
     /// Zoom steps from the usual page length; positive is shorter.
     pub zoom: i32,
     /// Whether playback slows down at changes of contact and speeds up between them.
@@ -253,60 +253,41 @@ pub struct Cursor {
 }
 
 /// The state of the dialogues.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Dialogue {
     /// What the keyboard acts on.
     pub mode: InputMode,
     /// Index of the selected line of the list, or of the first line of the help; `None` until one is
     /// chosen.
     pub place: Option<usize>,
-    /// How often the note of the selected scene was turned to its next page; after the last page
-    /// follows the first.
-    pub note_page: usize,
     /// Whether this is the first start and no key was pressed yet: the footer then says what to
     /// try.
     pub is_new: bool,
-    /// Whether a frame has shown the open question. Keys typed ahead must not answer it unseen.
-    pub asked: bool,
-}
-
-impl Default for Dialogue {
-    fn default() -> Self {
-        Self { mode: InputMode::Main, place: None, note_page: 0, is_new: false, asked: true }
-    }
+    /// Whether no frame has shown the open question yet. Keys typed ahead must not answer it.
+    pub unseen: bool,
 }
 
 /// What the keyboard acts on: the main screen, or one open dialogue.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum InputMode {
     /// Knobs and charts.
+    #[default]
     Main,
     /// Typing a value for the selected knob.
     Typing(Field),
-    /// The help, with its search.
-    Help(HelpState),
-    /// The command palette, with the command or search words typed so far.
-    Palette(Field),
+    /// The help, with the words that every entry listed must contain. Without any, the first letter
+    /// may be a key of the help, such as `q`.
+    Help(Field),
+    /// The help, in which every letter goes into the words.
+    Search(Field),
+    /// The list of commands: the word that all of them begin with, and what is typed behind it.
+    Palette(&'static str, Field),
     /// Typing a file name.
     Naming(Purpose, Field),
     /// Asking whether to replace the existing file of this name.
     Replacing(Purpose, String),
     /// Asking whether to quit with a changed scene.
     Leaving,
-    /// The list of lessons.
-    Lessons,
-    /// The list of scenes; before another is chosen, the open one is selected.
-    Scenes,
-}
-
-/// The open help.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct HelpState {
-    /// Search words: only entries that contain all of them are listed.
-    pub filter: Field,
-    /// Whether every letter goes into the search; otherwise the first one may be a key of the
-    /// help, such as `q`.
-    pub searches: bool,
 }
 
 /// The open scene, and the files of the directory.
@@ -372,7 +353,7 @@ pub struct StepProgress {
 }
 
 /// The state of the mouse.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Mouse {
     /// Whether mouse events are used.
     pub on: bool,
@@ -381,12 +362,6 @@ pub struct Mouse {
     pub(super) wheeled: Option<((u16, u16), usize)>,
     /// What can be clicked on the last frame. Where areas overlap, the later one is on top.
     pub(super) drawn: RefCell<Vec<Spot>>,
-}
-
-impl Default for Mouse {
-    fn default() -> Self {
-        Self { on: true, wheeled: None, drawn: RefCell::default() }
-    }
 }
 
 /// Something that is drawn and can be clicked.

@@ -1,42 +1,73 @@
-//! The command palette: what is typed, the commands that match it, and their list.
+//! The list of commands: what is typed, the commands that match it, and a note on the selected one.
+//! It is also the list of scenes and that of lessons.
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::model::App;
+use super::model::{App, InputMode};
 use super::words::{self, Found};
 use crate::tui::command::Effect;
 use crate::tui::field::Field;
+use crate::tui::files::FoundScenes;
 use crate::tui::list::draw_list;
-use crate::tui::text::{columns, print, shorten, wrap};
+use crate::tui::text::{columns, first_lines, print, shorten, wrap};
 use crate::tui::theme::Role;
 
 impl App {
+    /// Returns the entries that match the typed text behind `word`, and the index of the selected
+    /// one.
+    pub fn palette(&self, word: &str, typed: &Field) -> (Vec<Found>, usize) {
+        let found = words::found(self, &format!("{word}{}", typed.text()));
+        let first = || found.iter().position(|item| item.first).unwrap_or(0);
+        // A resize can leave the place past the end.
+        let place = self.dialogue.place.unwrap_or_else(first).min(found.len().saturating_sub(1));
+        (found, place)
+    }
+
     /// Executes the command that is selected, or else typed.
     ///
     /// # Errors
     /// One line that says why nothing matches, in which case the palette stays open, or why the
     /// command is refused.
-    pub fn choose_command(&mut self, typed: &str) -> Result<Effect, String> {
-        let place = self.dialogue.place.unwrap_or(0);
-        let chosen = words::found(self, typed).into_iter().nth(place);
-        let chosen = chosen.map_or_else(|| words::only(self, typed), Ok)?;
+    pub fn choose_command(&mut self, word: &str, typed: &Field) -> Result<Effect, String> {
+        let (found, place) = self.palette(word, typed);
+        let only = || words::only(self, &format!("{word}{}", typed.text()));
+        let chosen = found.into_iter().nth(place).map_or_else(only, Ok)?;
         self.dialogue.close();
         self.update(chosen.command)
     }
+
+    /// Applies the list of scenes that were read; the selection stays on the same entry.
+    pub fn scenes_found(&mut self, scenes: FoundScenes) {
+        let (mode, place) = (self.dialogue.mode.clone(), self.dialogue.place);
+        let (InputMode::Palette(word, typed), Some(_)) = (mode, place) else {
+            self.files.found = scenes;
+            return;
+        };
+        let (before, place) = self.palette(word, &typed);
+        self.files.found = scenes;
+        let chosen = before.get(place).map(|item| &item.command);
+        let same = |item: &Found| Some(&item.command) == chosen;
+        self.dialogue.place = self.palette(word, &typed).0.iter().position(same);
+    }
 }
 
-/// Draws the command palette.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, typed: &Field) {
+/// Draws the list of commands.
+pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, word: &str, typed: &Field) {
     let look = &app.appearance;
     let (width, mark) = (usize::from(area.width), look.ellipsis());
-    let found = words::found(app, &typed.text());
-    let hint = match typed.text().as_str() {
-        "" => "  t 0.3 ms, speed 450, blade 7, scene rub, or any words",
+    let (found, place) = app.palette(word, typed);
+    let files = &app.files.found;
+    let hint = match word {
+        _ if !typed.text().is_empty() => "",
+        "" => "t 0.3 ms, speed 450, blade 7, scene rub, or any words",
+        "scene " if files.reading => "Scenes: reading the files of this folder",
+        "scene " => files.missing.as_deref().unwrap_or("Scenes: Enter opens one, u returns"),
+        "lesson " => "Lessons: Enter begins one, g goes on, B back, G leaves",
         _ => "",
     };
-    let typed = typed.shown(width.saturating_sub(2));
-    let head = shorten(&format!(": {typed}{hint}"), width, mark);
-    print(buffer, area, 0, &head, look.style(Role::Focus));
+    let typed = typed.shown(width.saturating_sub(2 + word.len()));
+    let head = shorten(&look.spell(&format!(": {word}{typed}  {hint}")), width, mark);
+    print(buffer, area, 0, head.trim_end(), look.style(Role::Focus));
     let status = app.status.as_ref().map_or(Vec::new(), |text| wrap(&look.spell(text), width));
     let mut said: Vec<_> = status.into_iter().map(|line| (line, Role::Trouble)).collect();
     if found.is_empty() {
@@ -47,8 +78,13 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, typed: &Field) {
         print(buffer, area, top, &line, look.style(role));
         top += 1;
     }
-    let below = Rect { y: area.y + top.min(area.height), ..area };
-    let below = Rect { height: area.bottom() - below.y, ..below };
+    let top = top.min(area.height);
+    let below = Rect { y: area.y + top, height: area.height - top, ..area };
+    let note = found.get(place).map_or("", |item| item.note.as_str());
+    let notes = if note.is_empty() { Vec::new() } else { wrap(&look.spell(note), width) };
+    let rows = if note.is_empty() { 0 } else { notes.len() + 1 };
+    let rows = u16::try_from(rows).unwrap_or(u16::MAX).min(below.height / 2);
+    let list = Rect { height: below.height - rows, ..below };
     let line = |item: &Found| {
         let kind = if item.kind.is_empty() { String::new() } else { format!("{} ", item.kind) };
         let beside = look.spell(&item.beside);
@@ -58,14 +94,21 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, typed: &Field) {
         let pad = width.saturating_sub(columns(&what) + columns(&beside) + 1);
         (format!("{what}{}{beside}", " ".repeat(pad)), Role::Text)
     };
-    let place = app.dialogue.place.unwrap_or(0).min(found.len().saturating_sub(1));
-    draw_list(look, buffer, below, found.iter().map(line), place);
+    let first = draw_list(look, buffer, list, found.iter().map(line), place);
+    for (y, item) in (list.y..list.bottom()).zip(found.iter().skip(first)) {
+        app.note(Rect { y, height: 1, ..list }, item.command.clone());
+    }
+    let note = Rect { y: list.bottom(), height: rows, ..below };
+    print(buffer, note, 0, &look.either("─", "-").repeat(width), look.style(Role::Quiet));
+    let lines = first_lines(notes, width, usize::from(rows.saturating_sub(1)), mark);
+    for (row, line) in (1..rows).zip(lines) {
+        print(buffer, note, row, &line, look.style(Role::Text));
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::app::InputMode;
     use crate::tui::command::Command;
     use crate::tui::field::Edit;
     use crate::tui::{Marker, Theme};
@@ -76,7 +119,7 @@ mod tests {
     }
 
     fn look_for(app: &mut App, typed: &str) {
-        app.dialogue.open(InputMode::Palette(typed.into()));
+        app.dialogue.open(InputMode::Palette("", typed.into()));
     }
 
     #[test]

@@ -2,21 +2,18 @@
 //! then a new one starts.
 
 use super::model::{App, Play, Tempo};
-use crate::tui::axis::nice_step;
 use crate::tui::command::Command;
 use crate::tui::engine::{Move, PageRecord};
 use crate::tui::history::{Bin, between, fine_between};
 use rubscope_solver::scene::Scene;
 
-/// Rates of playback: simulated time over wall-clock time.
-pub const RATES: &[f64] =
-    &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5, 1.0];
+/// The slowest rate of playback and the first one, as places of [`round_number`]: simulated time over
+/// wall-clock time. The fastest is real time, place 0.
+pub const SLOWEST: i32 = -15;
+const FIRST_RATE: i32 = -7;
 
-/// Index of 5e-3: five milliseconds of motion per second.
-const FIRST_RATE: usize = 8;
-
-/// Time to fill a page at zoom 0 \[wall-clock s\].
-const PAGE_SECONDS: f64 = 4.0;
+/// A page at zoom 0 is so many places longer than the rate: it takes four or five seconds to fill.
+const PAGE: i32 = 2;
 
 /// Rates from here on are called real time.
 const REAL: f64 = 0.95;
@@ -27,20 +24,15 @@ const WATCHED: f64 = 120.0;
 /// Largest zoom, in or out.
 const MOST_ZOOM: i32 = 12;
 
-/// Returns the length of a page, rounded to 1, 2 or 5 times a power of ten \[s\].
-pub fn page_length(rate: f64, zoom: i32) -> f64 {
-    let usual = nice_step(PAGE_SECONDS * rate, 1).unwrap_or(PAGE_SECONDS * rate);
-    // Each zoom step moves one place in the sequence 1, 2, 5, 10, 20, 50, ...
-    let power = (usual.log10() + 1e-9).floor();
-    let digit = match usual / 10f64.powf(power) {
-        x if x < 1.5 => 0,
-        x if x < 3.5 => 1,
-        _ => 2,
+/// Returns the number at a place of the sequence ..., 0.5, 1, 2, 5, 10, ...; place 0 is 1.
+fn round_number(place: i32) -> f64 {
+    let digit = match place.rem_euclid(3) {
+        0 => 1,
+        1 => 2,
+        _ => 5,
     };
-    let place = 3 * power as i32 + digit - zoom;
-    let mantissa = ["1", "2", "5"].get(place.rem_euclid(3) as usize).copied().unwrap_or("1");
     // Parsing gives the double nearest to the decimal number; a product would not.
-    format!("{mantissa}e{}", place.div_euclid(3)).parse().unwrap_or(usual)
+    format!("{digit}e{}", place.div_euclid(3)).parse().unwrap_or(1.0)
 }
 
 /// Returns the time at which a scene starts to play \[s\].
@@ -80,14 +72,19 @@ impl Play {
 
     /// Returns simulated time over wall-clock time.
     pub fn rate(&self) -> f64 {
-        RATES.get(self.tempo.rate).copied().unwrap_or(5e-3)
+        round_number(self.tempo.rate)
+    }
+
+    /// Returns the length of a page at this zoom, in a run of any length \[s\].
+    fn page_length(&self, zoom: i32) -> f64 {
+        round_number(self.tempo.rate + PAGE - zoom)
     }
 
     /// Returns the largest zoom whose page is at least `length` seconds long, or the smallest zoom
     /// if no page is.
     pub fn zoom_for(&self, length: f64) -> i32 {
         let mut all = (-MOST_ZOOM..=MOST_ZOOM).rev();
-        let long = |zoom: &i32| page_length(self.rate(), *zoom) >= length * (1.0 - 1e-9);
+        let long = |zoom: &i32| self.page_length(*zoom) >= length * (1.0 - 1e-9);
         all.find(long).unwrap_or(-MOST_ZOOM)
     }
 }
@@ -95,7 +92,7 @@ impl Play {
 impl App {
     /// Returns the length of a page, limited to the run \[s\].
     pub fn page_s(&self) -> f64 {
-        page_length(self.play.rate(), self.play.tempo.zoom).min(self.end_s())
+        self.play.page_length(self.play.tempo.zoom).min(self.end_s())
     }
 
     /// Returns the time shown: that of the cursor, or of the playing motion \[s\].
@@ -181,7 +178,7 @@ impl App {
     pub fn zoom(&mut self, command: Command) {
         let middle = self.reading.at_s.or(self.play.middle_s);
         let middle = middle.or((!self.play.playing).then(|| self.played_s()));
-        let whole = page_length(self.play.rate(), self.play.tempo.zoom) >= self.end_s();
+        let whole = self.play.page_length(self.play.tempo.zoom) >= self.end_s();
         (self.play.tempo.zoom, self.play.middle_s) = match command {
             Command::ZoomIn => ((self.play.tempo.zoom + 1).min(MOST_ZOOM), middle),
             Command::ZoomOut if whole => return,

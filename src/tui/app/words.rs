@@ -30,13 +30,18 @@ pub struct Found {
     pub beside: String,
     /// The command to execute.
     pub command: Command,
+    /// What is said about the entry below the list while it is selected; may be empty.
+    pub note: String,
+    /// Whether it is selected before another is chosen.
+    pub first: bool,
     /// Other words that match the entry.
     also: String,
 }
 
 impl Found {
     fn of(kind: &'static str, what: impl Into<String>, command: Command) -> Self {
-        Self { kind, what: what.into(), beside: String::new(), command, also: String::new() }
+        let (beside, note, also) = Default::default();
+        Self { kind, what: what.into(), beside, command, note, first: false, also }
     }
 
     fn beside(self, beside: impl Into<String>) -> Self {
@@ -51,23 +56,11 @@ impl Found {
 /// Returns the entries that match the typed words, the best first.
 pub fn found(app: &App, typed: &str) -> Vec<Found> {
     if let Some(found) = directed(app, typed) {
-        return found;
+        return found.unwrap_or_default();
     }
     let mut all: Vec<Found> = going_to(app, typed).into_iter().collect();
-    all.extend(assignments(app, typed).into_iter().map(|(_, item)| item));
-    let typed = typed.to_lowercase();
-    let words: Vec<&str> = typed.split_whitespace().collect();
-    let fits = |item: Found| rank(&item, &words).map(|rank| (rank, item));
-    let mut others: Vec<_> = everything(app).filter_map(fits).collect();
-    // An exact name comes first; entries of equal rank keep the order of the list.
-    let place = |item: &Found| match &item.command {
-        Command::Scene(name) if name == typed.trim() => 0,
-        Command::View(view) if view.word() == typed.trim() => 1,
-        _ if item.what.to_lowercase() == typed.trim() => 0,
-        _ => 2,
-    };
-    others.sort_by_key(|(rank, item)| (place(item), *rank));
-    all.extend(others.into_iter().map(|(_, item)| item));
+    all.extend(assignments(app, typed).into_iter().filter_map(|(_, item)| item.ok()));
+    all.extend(ranked(everything(app), typed));
     all
 }
 
@@ -87,24 +80,17 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     if let Some(place) = called(typed) {
         return Ok(Found::of("knob", typed, Command::Select(place)));
     }
-    let lower = typed.to_lowercase();
-    let words: Vec<&str> = lower.split_whitespace().collect();
-    let refusal = refused(app, typed);
-    let first = found(app, typed).into_iter().next();
-    match (first, refusal) {
-        (Some(Found { command: Command::Set(..), .. }), _) => alone(app, typed),
-        // If a knob was named but refuses the value, that error is better than an entry that
-        // selects the knob or contains the same words by chance.
-        (Some(Found { command: Command::Select(_), .. }), Some((_, why))) => Err(why),
-        (Some(item), Some((fit, why)))
-            if fit < Fit::Begins
-                && ["", "knob", "scene", "lesson"].contains(&item.kind)
-                && !is_own(&item, &words) =>
-        {
-            Err(why)
-        }
+    if let Some(Err(why)) = directed(app, typed) {
+        return Err(why);
+    }
+    let assignments = assignments(app, typed);
+    let refusals = assignments.iter().filter_map(|(fit, item)| Some((*fit, item.as_ref().err()?)));
+    let refusal = refusals.min_by_key(|(fit, _)| *fit);
+    match (found(app, typed).into_iter().next(), refusal) {
+        (Some(Found { command: Command::Set(..), .. }), _) => alone(assignments, typed),
+        (Some(item), Some(((fit, _), why))) if gives_way(&item, typed, fit) => Err(why.clone()),
         (Some(item), _) => Ok(item),
-        (None, Some((_, why))) => Err(why),
+        (None, Some((_, why))) => Err(why.clone()),
         (None, None) if is_numeric(typed) => {
             Err(format!("{typed}: which knob? Write for example speed 450 rad/s"))
         }
@@ -112,74 +98,56 @@ pub fn only(app: &App, typed: &str) -> Result<Found, String> {
     }
 }
 
-/// Returns whether the description of an entry contains each of `words` as a whole word. They must
-/// be in lower case.
-fn is_own(item: &Found, words: &[&str]) -> bool {
-    let what = item.what.to_lowercase();
-    words.iter().all(|word| what.split_whitespace().any(|own| own == *word))
+/// Returns whether an entry is worse than the error of a knob that is named this well but refuses
+/// the value: one that selects a knob, or contains the words by chance.
+fn gives_way(item: &Found, typed: &str, fit: Fit) -> bool {
+    let (what, typed) = (item.what.to_lowercase(), typed.to_lowercase());
+    let is_own = |word: &str| what.split_whitespace().any(|own| own == word);
+    let by_chance = ["", "knob", "scene", "lesson"].contains(&item.kind)
+        && !typed.split_whitespace().all(is_own);
+    matches!(item.command, Command::Select(_)) || (fit < Fit::Begins && by_chance)
 }
 
-/// Returns the knob setting that the words name; an error if several knobs match equally well.
-fn alone(app: &App, typed: &str) -> Result<Found, String> {
-    let fitting = assignments(app, typed);
-    let best = fitting.first().map(|(fit, _)| *fit);
-    let mut alike: Vec<Found> =
-        fitting.into_iter().filter(|(fit, _)| Some(*fit) == best).map(|(_, item)| item).collect();
-    let labels = alike.iter().filter_map(|item| match item.command {
-        Command::Set(place, _) => Some(KNOBS.get(place)?.label),
-        _ => None,
-    });
-    let mut named: Vec<&str> = labels.take(CANDIDATES).collect();
-    if alike.len() > CANDIDATES {
-        named.push("others");
+/// Returns the only one of the best of `assignments`; an error if several knobs match equally well.
+fn alone(assignments: Vec<Assignment>, typed: &str) -> Result<Found, String> {
+    let mut fitting =
+        assignments.into_iter().filter_map(|((fit, _), item)| Some((fit, item.ok()?)));
+    let Some((best, first)) = fitting.next() else { return Err(format!("{typed}: which knob?")) };
+    let others = fitting.take_while(|(fit, _)| *fit == best).map(|(_, item)| item);
+    let alike: Vec<Found> = std::iter::once(first).chain(others).collect();
+    if let [one] = alike.as_slice() {
+        return Ok(one.clone());
     }
-    let which = format!("{typed}: which of {}?", named.join(", "));
-    alike.pop().filter(|_| alike.is_empty()).ok_or(which)
+    // Before the value.
+    let label = |item: &Found| item.what.split(" = ").next().unwrap_or_default().to_string();
+    let mut named: Vec<String> = alike.iter().take(CANDIDATES).map(label).collect();
+    if alike.len() > CANDIDATES {
+        named.push("others".into());
+    }
+    Err(format!("{typed}: which of {}?", named.join(", ")))
 }
 
 /// Largest number of candidates listed for an ambiguous name.
 const CANDIDATES: usize = 4;
-
-/// Returns how well a name matches, and why the named knob or target refuses the value after it;
-/// `None` if nothing is named or the value is accepted.
-fn refused(app: &App, typed: &str) -> Option<(Fit, String)> {
-    let words: Vec<&str> = typed.split([' ', '=']).filter(|word| !word.is_empty()).collect();
-    match words.as_slice() {
-        ["t" | "T", time @ ..] if !time.is_empty() => {
-            let why = format!("t {}: not a time; write for example 0.3 ms", time.join(" "));
-            return Some((Fit::Name, why));
-        }
-        ["range", rest @ ..] if !rest.is_empty() => {
-            return surveyed(app, &rest.join(" ")).err().map(|why| (Fit::Name, why.to_string()));
-        }
-        ["blade", rest @ ..] if rest.first().is_some_and(|word| is_numeric(word)) => {
-            let (blade, all) = (rest.join(" "), app.machine.polygon.blades);
-            return Some((Fit::Name, format!("blade {blade}: from 1 to {all}")));
-        }
-        _ => {}
-    }
-    let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
-    let named = splits.filter_map(|(name, value)| {
-        let (fit, knob) = best(KNOBS.iter(), name)?;
-        app.parse(knob, &value.join(" ")).err().map(|error| (fit, knob.refusal(&error)))
-    });
-    named.min_by_key(|(fit, _)| *fit)
-}
 
 /// Returns whether a word looks like a number.
 fn is_numeric(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit() || first == '-')
 }
 
-/// Returns the entries that an introductory word such as `blade` or `scene` leads to; `None` if the
-/// text begins with no such word.
-fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
+/// Returns the entries that an introductory word such as `blade` or `scene` leads to, or why what
+/// follows it is refused; `None` if the text begins with no such word.
+fn directed(app: &App, typed: &str) -> Option<Result<Vec<Found>, String>> {
     let typed = typed.trim_start();
-    let (first, rest) = typed.split_once(char::is_whitespace)?;
+    let (first, rest) = typed.split_once([' ', '='])?;
     let rest = rest.trim();
     let lower = rest.to_lowercase();
     let first = first.to_lowercase();
-    Some(match first.as_str() {
+    Some(Ok(match first.as_str() {
+        "t" if !rest.is_empty() => match going_to(app, typed) {
+            Some(time) => vec![time],
+            None => return Some(Err(format!("t {rest}: not a time; write for example 0.3 ms"))),
+        },
         "blade" => {
             let all = app.machine.polygon.blades;
             let blade = |blade: u32| {
@@ -188,7 +156,9 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             };
             match rest.parse() {
                 Ok(number) => vec![blade(number)],
-                Err(_) if is_numeric(rest) => Vec::new(),
+                Err(_) if is_numeric(rest) => {
+                    return Some(Err(format!("blade {rest}: from 1 to {all}")));
+                }
                 // "blade" also begins the name of knobs.
                 Err(_) => return None,
             }
@@ -198,11 +168,14 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             None => one_axis(app, "across", &lower),
         },
         "across" | "up" => one_axis(app, &first, &lower),
-        "range" => surveyed(app, rest).into_iter().collect(),
-        "scene" => those_with(scenes(app), &lower),
+        "range" => match surveyed(app, rest) {
+            Ok(range) => vec![range],
+            Err(why) => return Some(Err(why.to_string())),
+        },
+        "scene" => ranked(scenes(app, rest), rest),
         "lesson" => match lower.parse::<usize>() {
-            Ok(number) => lessons().nth(number.checked_sub(1)?).into_iter().collect(),
-            Err(_) => those_with(lessons(), &lower),
+            Ok(number) => lessons(app, rest).nth(number.checked_sub(1)?).into_iter().collect(),
+            Err(_) => ranked(lessons(app, rest), rest),
         },
         "answer" => {
             let place = LETTERS.iter().position(|letter| lower == letter.to_string())?;
@@ -220,7 +193,7 @@ fn directed(app: &App, typed: &str) -> Option<Vec<Found>> {
             vec![Found::of("file", typed.trim(), Command::Write(purpose, rest.into()))]
         }
         _ => return None,
-    })
+    }))
 }
 
 /// Parses the speed range of a survey: `200:600`, `200 600` or `all`.
@@ -240,15 +213,21 @@ fn surveyed(app: &App, text: &str) -> Result<Found, SceneError> {
     Ok(Found::of("go", format!("survey of all nodal diameters over {ends}"), command))
 }
 
-/// Returns those of the entries that match all of `words`, the best first.
-fn those_with(all: impl Iterator<Item = Found>, words: &str) -> Vec<Found> {
-    let words: Vec<&str> = words.split_whitespace().collect();
-    let is_exact = |item: &Found| item.what.split(':').next() != words.first().copied();
-    let mut found: Vec<_> = all
-        .filter_map(|item| rank(&item, &words).map(|rank| (is_exact(&item), rank, item)))
-        .collect();
-    found.sort_by_key(|(other, rank, _)| (*other, *rank));
-    found.into_iter().map(|(.., item)| item).collect()
+/// Returns the entries that match the typed words. An exact name comes first; entries of equal rank
+/// keep their order.
+fn ranked(all: impl Iterator<Item = Found>, typed: &str) -> Vec<Found> {
+    let typed = typed.trim().to_lowercase();
+    let words: Vec<&str> = typed.split_whitespace().collect();
+    let place = |item: &Found| match &item.command {
+        Command::Scene(name) if *name == typed => 0,
+        Command::View(view) if view.word() == typed => 1,
+        _ if item.what.to_lowercase() == typed => 0,
+        _ => 2,
+    };
+    let fits = |item: Found| Some(((place(&item), rank(&item, &words)?), item));
+    let mut found: Vec<_> = all.filter_map(fits).collect();
+    found.sort_by_key(|(key, _)| *key);
+    found.into_iter().map(|(_, item)| item).collect()
 }
 
 /// Parses the words after `axes`, such as `clearance pulse`: the horizontal, then the vertical axis
@@ -291,48 +270,73 @@ fn going_to(app: &App, typed: &str) -> Option<Found> {
     )
 }
 
+/// How well typed words name a knob, with the number of words of the value: of two names that fit
+/// equally well, the longer one counts. Then the entry that sets the knob, or why it refuses the
+/// value.
+type Assignment = ((Fit, usize), Result<Found, String>);
+
 /// Returns the knobs that the first words name, set to the value that follows, the best match
 /// first. A number alone, or with a unit of speed, sets the speed.
-fn assignments(app: &App, typed: &str) -> Vec<(Fit, Found)> {
+fn assignments(app: &App, typed: &str) -> Vec<Assignment> {
     let typed = typed.replacen('=', " ", 1);
     let words: Vec<&str> = typed.split_whitespace().collect();
     let nameless = words.concat();
+    // A single digit is the key of a view.
+    let is_speed = (nameless.len() > 1 && nameless.parse().is_ok_and(f64::is_finite))
+        || ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit));
     let mut found = Vec::new();
     for (place, knob) in KNOBS.iter().enumerate() {
-        let splits = (1..words.len()).rev().filter_map(|at| words.split_at_checked(at));
-        let named = splits.filter_map(|(name, value)| Some((fit(knob, name)?, value.join(" "))));
-        // A single digit is the key of a view.
-        let is_number = nameless.len() > 1 && nameless.parse().is_ok_and(f64::is_finite);
-        let alone = knob.path == keys::SPEED
-            && (is_number || ["rpm", "Hz", "rad/s"].iter().any(|unit| nameless.ends_with(unit)));
-        let alone = alone.then(|| (Fit::Name, nameless.clone()));
-        let values = named.chain(alone);
-        let values =
-            values.filter_map(|(fit, text)| Some((fit, app.parse(knob, &text).ok()?, text)));
-        if let Some((fit, value, text)) = values.min_by_key(|(fit, ..)| *fit) {
-            let what = format!("{} = {}", knob.label, knob.shown(&value));
-            let set = Found::of("set", what, Command::Set(place, text));
-            found.push((fit, set.beside(format!("now {}", knob.text(&app.scene)))));
-        }
+        let set = |text: String| match app.parse(knob, &text) {
+            Ok(value) => {
+                let what = format!("{} = {}", knob.label, knob.shown(&value));
+                let set = Found::of("set", what, Command::Set(place, text));
+                Ok(set.beside(format!("now {}", knob.text(&app.scene))))
+            }
+            Err(why) => Err(knob.refusal(&why)),
+        };
+        let splits = (1..words.len()).map(|at| words.split_at(at));
+        let named = splits.filter_map(|(name, value)| {
+            Some(((fit(knob, name)?, value.len()), set(value.join(" "))))
+        });
+        let alone = (knob.path == keys::SPEED && is_speed).then(|| set(nameless.clone()));
+        let alone = alone.filter(Result::is_ok).map(|set| ((Fit::Name, 0), set));
+        found.extend(named.chain(alone).min_by_key(|(fit, set)| (set.is_err(), *fit)));
     }
-    found.sort_by_key(|(fit, _)| *fit);
+    found.sort_by_key(|((fit, _), _)| *fit);
     found
 }
 
-fn scenes(app: &App) -> impl Iterator<Item = Found> {
-    app.scene_entries().into_iter().map(|scene| {
-        let what = match &scene.scene {
-            Ok(read) => format!("{}: {}", scene.name, read.title),
-            Err(_) => scene.name.clone(),
+/// Returns the scenes; without typed words the open one is selected first.
+fn scenes(app: &App, typed: &str) -> impl Iterator<Item = Found> {
+    let is_all = typed.is_empty();
+    app.scene_entries().into_iter().map(move |scene| {
+        let is_open = app.is_open_scene(&scene);
+        let (what, beside, note) = match &scene.scene {
+            Ok(read) => (format!("{}: {}", scene.name, read.title), "open", read.note.clone()),
+            Err(why) => (scene.name.clone(), "cannot be read", why.clone()),
         };
-        Found::of("scene", what, Command::Scene(scene.name)).also("open")
+        let beside = if is_open || scene.scene.is_err() { beside } else { "" };
+        let found = Found::of("scene", what, Command::Scene(scene.name)).beside(beside);
+        Found { note, first: is_open && is_all, ..found.also("open") }
     })
 }
 
-fn lessons() -> impl Iterator<Item = Found> {
-    lessons::all().iter().enumerate().map(|(place, lesson)| {
+/// Returns the lessons; without typed words the first that is not done is selected first.
+fn lessons(app: &App, typed: &str) -> impl Iterator<Item = Found> {
+    let (done, is_all) = (&app.lessons.done, typed.is_empty());
+    let open = lessons::all().iter().position(|lesson| done.next(lesson).is_some());
+    lessons::all().iter().enumerate().map(move |(place, lesson)| {
+        let (count, steps) = (done.count(lesson), lesson.steps.len());
+        let state = if count == steps { "done".into() } else { format!("{count}/{steps}") };
+        let beside = format!("{}, {} min, {state}", place + 1, lesson.minutes());
+        // A step that was skipped comes before the last completed one.
+        let note = match done.next(lesson).filter(|next| *next < count) {
+            Some(step) => format!("Goes on at step {}.", step + 1),
+            None => format!("Needs {}.", lesson.needs),
+        };
         let also = format!("guide learn {}", lesson.name);
-        Found::of("lesson", lesson.title.as_str(), Command::Lesson(place)).also(also)
+        let found = Found::of("lesson", lesson.title.as_str(), Command::Lesson(place));
+        Found { note, first: is_all && open == Some(place), ..found.beside(beside).also(also) }
     })
 }
 
@@ -351,7 +355,7 @@ fn everything(app: &App) -> impl Iterator<Item = Found> {
             .beside(knob.text(&app.scene))
             .also(format!("{} {}", knob.path, plain(knob.label)))
     });
-    bound.chain(knobs).chain(scenes(app)).chain(lessons())
+    bound.chain(knobs).chain(scenes(app, "")).chain(lessons(app, ""))
 }
 
 /// Rates how well an entry matches all the words: lower is better, `None` if some word is missing.

@@ -42,7 +42,7 @@ pub enum Command {
     Help,
     /// Open the help for a search in which every letter is part of the text.
     Search,
-    /// Open the list of commands, with this text typed.
+    /// Open the list of the commands that begin with a word, such as `scene `.
     Palette(&'static str),
     /// Select the line above: of a list, of the answers to a question, or of the knobs.
     Above,
@@ -60,10 +60,6 @@ pub enum Command {
     Accept,
     /// Edit the text being typed.
     Edit(Edit),
-    /// Replace the existing file.
-    Replace,
-    /// Show the next page of a scene's note.
-    TurnNote,
     /// Turn the selected knob by a fine or a coarse step.
     Turn {
         /// Whether the value grows.
@@ -171,8 +167,6 @@ pub enum Command {
     },
     /// Do nothing, for this reason.
     Nothing(String),
-    /// Open the list of scenes.
-    Scenes,
     /// Open a scene, given by its name.
     Scene(String),
     /// Open the scene of a step of a lesson, made from the built-in one of this name.

@@ -60,15 +60,9 @@ pub enum Group {
     /// Answering whether to quit with a changed scene.
     #[strum(serialize = "Where the scene is changed")]
     Leaving,
-    /// Choosing a lesson.
-    #[strum(serialize = "In the list of lessons")]
-    Lessons,
     /// Answering a question of a lesson; other keys as on the main screen.
     #[strum(serialize = "While a lesson asks")]
     Question,
-    /// Choosing a scene.
-    #[strum(serialize = "In the list of scenes")]
-    SceneList,
     /// The keys of every dialogue.
     #[strum(serialize = "In every dialogue")]
     Dialogue,
@@ -86,7 +80,7 @@ impl Group {
         match self {
             Self::Typing => &[Self::Field, Self::Dialogue],
             Self::Filter | Self::Palette => &[Self::Field, Self::List, Self::Dialogue],
-            Self::Help | Self::Lessons | Self::SceneList => &[Self::List, Self::Dialogue],
+            Self::Help => &[Self::List, Self::Dialogue],
             Self::Replacing | Self::Leaving => &[Self::Dialogue],
             _ => &[],
         }
@@ -171,7 +165,7 @@ const BEFORE_VIEWS: &[Binding] = &[
     bind!(Scenes: [letter('g')], Command::Guide, "guide: choose a lesson; in a lesson, its next step", "g" "guide"),
     bind!(Scenes: [letter('B')], Command::LessonBack, "in a lesson: the previous step"),
     bind!(Scenes: [letter('G')], Command::LeaveLesson, "leave the lesson and return to your scene"),
-    bind!(Scenes: [letter('o')], Command::Scenes, "open a scene: built-in, or a file in this folder", "o" "scenes"),
+    bind!(Scenes: [letter('o')], Command::Palette("scene "), "open a scene: built-in, or a file in this folder", "o" "scenes"),
     bind!(Time: [letter('A')], Command::Plain, "plain: take every step, or skip again the steps whose result is known"),
     bind!(Time: [letter('n')], Command::Jump, "go to the next change of contact (pauses)"),
     bind!(Time: [letter('E'), key(End)], Command::GoToEnd, "go to the end of the run; to another instant with : t 0.3 ms"),
@@ -220,16 +214,11 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Palette: [key(Esc)], Command::Close, "close the list", "Esc" "close"),
     bind!(Palette: [key(Tab)], Command::Below, "the line below"),
     bind!(Palette: [key(BackTab)], Command::Above, "the line above"),
-    bind!(Replacing: [letter('y')], Command::Replace, "replace the file", "y" "replace"),
+    bind!(Replacing: [letter('y')], Command::Accept, "replace the file", "y" "replace"),
     bind!(Replacing: [letter('n'), key(Esc)], Command::Close, "keep the old file", "n" "keep it"),
     bind!(Leaving: [letter('q')], Command::Leave, "quit without saving", "q" "quit"),
     bind!(Leaving: [letter('s')], Command::Ask(Purpose::Save), "save the scene", "s" "save"),
     bind!(Leaving: [letter('n'), key(Esc)], Command::Close, "stay", "Esc" "stay"),
-    bind!(Lessons: [letter('k')], Command::Above, "the lesson above"),
-    bind!(Lessons: [letter('j')], Command::Below, "the lesson below"),
-    bind!(Lessons: [key(Enter), letter('g')], Command::Accept, "begin the lesson", "Enter" "begin"),
-    bind!(Lessons: [letter('/')], Command::Palette("lesson "), "find a lesson by its words", "/" "find"),
-    bind!(Lessons: [key(Esc), letter('q')], Command::Close, "close the list", "Esc" "close"),
     bind!(Question: [key(Up), letter('k')], Command::Above, "the answer above", "↑↓" "choose"),
     bind!(Question: [key(Down), letter('j')], Command::Below, "the answer below"),
     bind!(Question: [key(Enter)], Command::Accept, "answer", "Enter" "answer"),
@@ -238,12 +227,6 @@ const AFTER_VIEWS: &[Binding] = &[
     bind!(Question: [letter('c')], Command::Answer(2), "answer c"),
     bind!(Question: [letter('B')], Command::LessonBack, "the previous step", "B" "back"),
     bind!(Question: [letter('G')], Command::LeaveLesson, "leave the lesson", "G" "leave"),
-    bind!(SceneList: [letter('k')], Command::Above, "the scene above"),
-    bind!(SceneList: [letter('j')], Command::Below, "the scene below"),
-    bind!(SceneList: [key(Enter)], Command::Accept, "open the scene", "Enter" "open"),
-    bind!(SceneList: [letter('/')], Command::Palette("scene "), "find a scene by its words", "/" "find"),
-    bind!(SceneList: [letter(' ')], Command::TurnNote, "the rest of a long note"),
-    bind!(SceneList: [key(Esc), letter('o'), letter('q')], Command::Close, "close the list", "Esc" "close"),
     bind!(Field: [key(Left), ctrl('b')], Command::Edit(Edit::Left), "cursor to the left", "←→" "move"),
     bind!(Field: [key(Right), ctrl('f')], Command::Edit(Edit::Right), "cursor to the right"),
     bind!(Field: [key(Home), ctrl('a')], Command::Edit(Edit::Start), "to the start; there, to the first line"),

@@ -153,7 +153,7 @@ mod tests {
                 seen.insert(knob.path);
             }
         }
-        assert_eq!(seen.len(), Group::Beyond.places().count(), "{seen:?}");
+        assert_eq!(seen.len(), Group::Beyond.knobs().count(), "{seen:?}");
     }
 
     #[test]

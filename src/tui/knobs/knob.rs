@@ -268,15 +268,9 @@ impl Knob {
         }
     }
 
-    /// Returns the range of the knob's bar with its marks; `None` for words, and for a range that
-    /// is empty or not finite. It follows from the opened scene and the machine, and hardly from
-    /// the present value except for its sign, so that the scale stays put while the knob turns.
-    pub fn range(&self, scene: &Scene, opened: &Scene, machine: &Machine) -> Option<KnobRange> {
-        self.range_around(self.number(opened)?, scene, machine)
-    }
-
-    /// As [`Self::range`], with `opened` in place of the value in the opened scene.
-    pub fn range_around(&self, opened: f64, scene: &Scene, machine: &Machine) -> Option<KnobRange> {
+    /// Returns the range of the knob's bar with its marks, where the value was `opened` as the scene
+    /// was opened; `None` for words, and for a range that is empty or not finite.
+    pub fn range(&self, opened: f64, scene: &Scene, machine: &Machine) -> Option<KnobRange> {
         let (turn, value, usual) = (self.turn, self.number(scene)?, self.usual);
         let case = Case { turn, value, opened, usual, scene, machine };
         let range = match self.bar {
@@ -349,7 +343,11 @@ mod tests {
 
     #[test]
     fn groups_follow_each_other_and_have_every_knob() {
-        let places: Vec<usize> = Group::VARIANTS.iter().flat_map(|group| group.places()).collect();
+        let places: Vec<usize> = Group::VARIANTS
+            .iter()
+            .flat_map(|group| group.knobs())
+            .map(|(place, _)| place)
+            .collect();
         assert_eq!(places, (0..KNOBS.len()).collect::<Vec<_>>());
         let first: Vec<&str> = KNOBS.iter().take(5).map(|knob| knob.label).collect();
         assert_eq!(first, ["speed Ω", "pulse F", "diameters n_d", "damping ζ_c", "damping ζ_bd"]);

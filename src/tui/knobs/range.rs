@@ -164,7 +164,8 @@ mod tests {
     use rubscope_solver::scene::Value;
 
     fn range(path: &str, scene: &Scene) -> Option<KnobRange> {
-        knob_of(path).unwrap().range(scene, scene, &scene.machine())
+        let knob = knob_of(path).unwrap();
+        knob.range(knob.number(scene)?, scene, &scene.machine())
     }
 
     #[test]
@@ -172,7 +173,7 @@ mod tests {
         for name in ["paper-nd3", "paper-nd4", "run-down", "grazing", "undamped"] {
             let scene = Scene::builtin(name).unwrap();
             for knob in KNOBS.iter() {
-                let Some(range) = knob.range(&scene, &scene, &scene.machine()) else {
+                let Some(range) = range(knob.path, &scene) else {
                     assert!(matches!(knob.turn, Turn::Words), "{name} {}", knob.label);
                     continue;
                 };

@@ -95,9 +95,9 @@ pub static KNOBS: LazyLock<Vec<Knob>> = LazyLock::new(|| {
 });
 
 impl Group {
-    /// Iterates over the indices of the group's knobs in [`KNOBS`].
-    pub fn places(self) -> impl Iterator<Item = usize> {
-        KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self).map(|(place, _)| place)
+    /// Iterates over the group's knobs, each with its index in [`KNOBS`].
+    pub fn knobs(self) -> impl Iterator<Item = (usize, &'static Knob)> {
+        KNOBS.iter().enumerate().filter(move |(_, knob)| knob.group == self)
     }
 }
 

@@ -45,7 +45,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let hint = (app.dialogue.is_new && app.dialogue.mode == InputMode::Main).then_some(TRY);
     // The palette shows the message itself, below the typed text.
     let status =
-        app.status.as_ref().filter(|_| !matches!(app.dialogue.mode, InputMode::Palette(_)));
+        app.status.as_ref().filter(|_| !matches!(app.dialogue.mode, InputMode::Palette(..)));
     let message = match (status, hint) {
         (Some(status), _) => Some((look.spell(status), Role::Good)),
         (None, hint) => hint.map(|hint| (look.spell(hint), Role::Focus)),

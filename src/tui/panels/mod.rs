@@ -9,7 +9,7 @@ use ratatui::{Frame, buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::app::knobs::{panel as knobs, strip};
 use super::app::layout::{LEAST_HEIGHT, LEAST_WIDTH, Places};
-use super::app::{App, InputMode, files, help, layout, lesson, palette};
+use super::app::{App, InputMode, help, layout, lesson, palette};
 use super::command::Command;
 use super::field::CURSOR;
 use super::text::{CUT, print, wrap};
@@ -41,10 +41,12 @@ pub fn paint(app: &App, buffer: &mut Buffer, area: Rect) {
     let places = layout::places(area, app);
     header::draw(app, buffer, places.header);
     match &app.dialogue.mode {
-        InputMode::Help(help) => help::draw(app, buffer, places.body, help),
-        InputMode::Palette(typed) => palette::draw(app, buffer, places.body, typed),
-        InputMode::Lessons => lesson::draw_list(app, buffer, places.body),
-        InputMode::Scenes => files::draw_scenes(app, buffer, places.body),
+        InputMode::Help(filter) | InputMode::Search(filter) => {
+            help::draw(app, buffer, places.body, filter);
+        }
+        InputMode::Palette(word, typed) => {
+            palette::draw(app, buffer, places.body, word, typed);
+        }
         _ => main_screen(app, buffer, &places),
     }
     footer::draw(app, buffer, places.footer);

@@ -9,7 +9,7 @@ use super::model::{App, Knobs, LessonProgress, Past};
 use crate::sheet::line::clean;
 use crate::sheet::number::rounded;
 use crate::tui::engine::Move;
-use crate::tui::knobs::{KNOBS, Knob};
+use crate::tui::knobs::{KNOBS, Knob, KnobRange};
 use rubscope_solver::motion::Change;
 use rubscope_solver::scene::{CheckedScene, Scene, SceneError, SolverKind, Value};
 
@@ -47,6 +47,13 @@ impl App {
     /// Returns the selected knob.
     pub fn selected(&self) -> Option<&'static Knob> {
         KNOBS.get(self.knobs.selected)
+    }
+
+    /// Returns the range of a knob's bar with its marks; `None` if the knob has no bar. It follows
+    /// from the opened scene and the machine, and hardly from the present value except for its sign,
+    /// so that the scale stays put while the knob turns.
+    pub fn range(&self, knob: &Knob) -> Option<KnobRange> {
+        knob.range(knob.number(&self.files.opened)?, &self.scene, &self.machine)
     }
 
     /// Captures the state that undo restores.
@@ -125,8 +132,7 @@ impl App {
     pub fn set_part(&mut self, place: usize, part: f64) {
         let Some(knob) = KNOBS.get(place) else { return };
         self.knobs.select(place);
-        let range = knob.range(&self.scene, &self.files.opened, &self.machine);
-        if let Some(value) = range.and_then(|range| knob.near(range.at(part))) {
+        if let Some(value) = self.range(knob).and_then(|range| knob.near(range.at(part))) {
             self.set(knob, value);
         }
     }

@@ -1,6 +1,6 @@
-//! The knobs: a column of groups with a note on the selected knob. The first group and that of the selected knob are open; the others are folded
-//! and show only changed values. The selected knob has a bar with marks at its limits. The mouse
-//! uses the same layout of lines.
+//! The knobs: a column of groups with a note on the selected knob. The first group and that of the
+//! selected knob are open; the others are folded and show only changed values. The selected knob has
+//! a bar with marks at its limits.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
@@ -10,48 +10,36 @@ use strum::VariantArray;
 use crate::sheet::line::capital;
 use crate::tui::app::model::{App, InputMode};
 use crate::tui::command::Command;
-use crate::tui::knobs::{Group, KNOBS, Knob};
-use crate::tui::text::{columns, overlay, pieces, print, wrap};
+use crate::tui::knobs::{Group, Knob};
+use crate::tui::text::{columns, overlay, print, wrap};
 use crate::tui::theme::Role;
 use rubscope_solver::scene::Allowed;
+
+/// A row of the column.
+struct Row {
+    /// Index of the knob that a click selects: the one of the row, or the first of a group.
+    place: usize,
+    /// The text; empty for the bar of the selected knob.
+    text: String,
+    style: Style,
+}
 
 /// Draws the knobs from the index `from` on as a column.
 pub fn panel(app: &App, buffer: &mut Buffer, area: Rect, from: usize) {
     // Without the gap to the charts.
     let area = Rect { width: area.width.saturating_sub(1), ..area };
     let look = &app.appearance;
-    let lines = lines(app, area.height, from);
-    for (y, line) in (area.y..area.bottom()).zip(&lines) {
-        let row = Rect { y, height: 1, ..area };
-        match *line {
-            ColumnLine::Heading(group) | ColumnLine::Folded(group) => {
-                if let Some(first) = group.places().next() {
-                    app.note(row, Command::Select(first));
-                }
-                match line {
-                    ColumnLine::Heading(_) => heading(app, buffer, row, group),
-                    _ => folded(app, buffer, row, group),
-                }
-            }
-            ColumnLine::Knob(place) => {
-                app.note(row, Command::Select(place));
-                if let Some(knob) = KNOBS.get(place) {
-                    self::knob(app, buffer, row, knob, place == app.knobs.selected);
-                }
-            }
-            ColumnLine::Bar(place) => {
-                app.note(row, Command::Select(place));
-                if let Some(knob) = KNOBS.get(place) {
-                    let cells = Rect { x: row.x + 2, width: row.width.saturating_sub(3), ..row };
-                    draw(app, buffer, cells, knob);
-                }
-            }
+    let rows = rows(app, area, from);
+    for (y, row) in (area.y..area.bottom()).zip(&rows) {
+        let at = Rect { y, height: 1, ..area };
+        app.note(at, Command::Select(row.place));
+        print(buffer, at, 0, &row.text, row.style);
+        if let Some(knob) = app.selected().filter(|_| row.text.is_empty()) {
+            draw(app, buffer, Rect { x: at.x + 2, width: at.width.saturating_sub(3), ..at }, knob);
         }
     }
-    let used = u16::try_from(lines.len()).unwrap_or(area.height);
-    let width = usize::from(area.width);
-    let mut row = used;
-    for (lines, role) in notes(app, width) {
+    let mut row = u16::try_from(rows.len()).unwrap_or(area.height);
+    for (lines, role) in notes(app, usize::from(area.width)) {
         // A note that does not fit is omitted as a whole.
         if row + u16::try_from(lines.len()).unwrap_or(0) > area.height {
             continue;
@@ -61,10 +49,14 @@ pub fn panel(app: &App, buffer: &mut Buffer, area: Rect, from: usize) {
             row += 1;
         }
     }
-    let selected = ColumnLine::Knob(app.knobs.selected);
-    if let Some(at) = lines.iter().position(|line| *line == selected) {
+    if let Some(at) = place_of_selected(app, &rows) {
         refusal(app, buffer, area, u16::try_from(at).unwrap_or(0));
     }
+}
+
+/// Returns the index of the row of the selected knob, which is behind the heading of its group.
+fn place_of_selected(app: &App, rows: &[Row]) -> Option<usize> {
+    rows.iter().rposition(|row| row.place == app.knobs.selected && !row.text.is_empty())
 }
 
 /// Prints why the value of the knob in row `at` was refused, over the rows below it, or above it if
@@ -80,44 +72,36 @@ pub fn refusal(app: &App, buffer: &mut Buffer, area: Rect, at: u16) {
     overlay(buffer, area, &lines, look.style(Role::Trouble));
 }
 
-/// Draws the heading of an open group, within a rule.
-fn heading(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
-    let look = &app.appearance;
-    let (rule, quiet) = (look.either("─", "-"), look.style(Role::Quiet));
-    let text = format!(" {} ", group.name());
-    let rest = rule.repeat(usize::from(row.width).saturating_sub(1 + columns(&text)));
-    let parts = [(rule.to_string(), quiet), (text, look.style(Role::Text)), (rest, quiet)];
-    pieces(buffer, row, 0, &parts);
+/// Returns the row of an open group: its name in a rule.
+fn heading(app: &App, width: usize, group: Group) -> (String, Style) {
+    let rule = app.appearance.either("─", "-");
+    let rest = width.saturating_sub(3 + columns(group.name()));
+    (format!("{rule} {} {}", group.name(), rule.repeat(rest)), app.appearance.style(Role::Quiet))
 }
 
-/// Draws a folded group: name, number of knobs, and the values changed since the scene was opened,
-/// or their number if they do not fit.
-fn folded(app: &App, buffer: &mut Buffer, row: Rect, group: Group) {
+/// Returns the row of a folded group: name, number of knobs, and the values changed since the scene
+/// was opened, or their number if they do not fit.
+fn folded(app: &App, width: usize, group: Group) -> (String, Style) {
     let look = &app.appearance;
-    let head = look.spell(&format!(" {} {} ▸", group.name(), group.places().count()));
-    let changed: Vec<String> = group
-        .places()
-        .filter_map(|place| KNOBS.get(place))
-        .filter(|knob| is_changed(app, knob))
-        .map(|knob| look.spell(&format!(" {}* {}", knob.symbol(), knob.text(&app.scene))))
-        .collect();
+    let head = look.spell(&format!(" {} {} ▸", group.name(), group.knobs().count()));
+    let changed = group.knobs().map(|(_, knob)| knob).filter(|knob| is_changed(app, knob));
+    let value = |knob: &Knob| look.spell(&format!(" {}* {}", knob.symbol(), knob.text(&app.scene)));
+    let changed: Vec<String> = changed.map(value).collect();
     let mut shown = changed.concat();
-    if columns(&shown) > usize::from(row.width).saturating_sub(columns(&head)) {
+    if columns(&head) + columns(&shown) > width {
         shown = format!(" {}*", changed.len());
     }
-    let text = look.style(Role::Text);
-    pieces(buffer, row, 0, &[(head, text), (shown, text.add_modifier(Modifier::BOLD))]);
+    let weight = if changed.is_empty() { Modifier::empty() } else { Modifier::BOLD };
+    (head + &shown, look.style(Role::Text).add_modifier(weight))
 }
 
-/// Draws a knob: label and value.
-fn knob(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob, selected: bool) {
+/// Returns the row of a knob: label and value.
+fn knob(app: &App, width: usize, knob: &Knob, selected: bool) -> (String, Style) {
     let [label, _] = parts(app, knob, selected, knob.label, 0);
-    let width = usize::from(row.width);
-    let room = width.saturating_sub(columns(&label) + 1);
-    let [_, shown] = parts(app, knob, selected, knob.label, room);
-    let pad = width.saturating_sub(columns(&label) + columns(&shown));
-    let text = format!("{label}{}{shown}", " ".repeat(pad));
-    print(buffer, row, 0, &text, style(app, knob, selected));
+    let room = width.saturating_sub(columns(&label));
+    let [_, shown] = parts(app, knob, selected, knob.label, room.saturating_sub(1));
+    let pad = room.saturating_sub(columns(&shown));
+    (format!("{label}{}{shown}", " ".repeat(pad)), style(app, knob, selected))
 }
 
 /// Returns a knob under `name` with the signs for *selected* and *changed*, and its value, or what
@@ -154,9 +138,8 @@ fn is_changed(app: &App, knob: &Knob) -> bool {
 /// is at.
 fn notes(app: &App, width: usize) -> Vec<(Vec<String>, Role)> {
     let Some(knob) = app.selected() else { return Vec::new() };
-    let range = knob.range(&app.scene, &app.files.opened, &app.machine);
-    let beside =
-        range.zip(knob.number(&app.scene)).and_then(|(range, value)| range.near_mark(value));
+    let value = knob.number(&app.scene);
+    let beside = app.range(knob).zip(value).and_then(|(range, value)| range.near_mark(value));
     let notes = [
         knob.inert(&app.scene).map(|why| (format!("no effect now: {why}"), Role::Focus)),
         Some((sentence(knob), Role::Quiet)),
@@ -177,77 +160,65 @@ fn sentence(knob: &Knob) -> String {
     }
 }
 
-/// A line of the column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ColumnLine {
-    /// The heading of an open group.
-    Heading(Group),
-    /// A folded group.
-    Folded(Group),
-    /// The knob with this index.
-    Knob(usize),
-    /// The bar of this knob, below its line.
-    Bar(usize),
-}
-
 /// Rows kept free for the note on the selected knob.
 pub const NOTES: u16 = 5;
 /// Width of a note \[columns\].
 const NOTE_WIDTH: usize = 26;
 
-/// Returns the lines of the column for this height, including the selected knob, from the knob at
-/// index `from` on.
-pub fn lines(app: &App, height: u16, from: usize) -> Vec<ColumnLine> {
+/// Returns the rows of the column that fit into an area, including that of the selected knob, from
+/// the knob at index `from` on.
+fn rows(app: &App, area: Rect, from: usize) -> Vec<Row> {
     let note = app.selected().map_or(0, |knob| wrap(&sentence(knob), NOTE_WIDTH).len());
-    let rows =
-        usize::from(height - NOTES.min(height / 2)) + usize::from(NOTES).saturating_sub(note);
+    let kept = usize::from(NOTES.min(area.height / 2));
+    let most = usize::from(area.height) - kept + usize::from(NOTES).saturating_sub(note);
     let chosen = app.selected().map_or(Group::Operation, |knob| knob.group);
-    let with = |open: &[Group], telling: bool| all(app, open, telling, from);
-    let ways = [(&[Group::Operation, chosen][..], true), (&[Group::Operation, chosen], false)];
-    let fitting = ways.into_iter().map(|(open, telling)| with(open, telling));
-    let fitting = fitting.into_iter().find(|lines| lines.len() <= rows);
-    let lines = fitting.unwrap_or_else(|| with(&[chosen], false));
-    let here = |line: &ColumnLine| *line == ColumnLine::Knob(app.knobs.selected);
-    let selected = lines.iter().position(here).unwrap_or(0);
-    // Its bar must be visible too.
-    let last = (selected + 2).min(lines.len());
-    let first = if lines.len() > rows { last.saturating_sub(rows) } else { 0 };
-    lines.into_iter().skip(first).take(rows).collect()
+    let open = [Group::Operation, chosen];
+    let mut rows = Vec::new();
+    for (open, telling) in [(&open[..], true), (&open[..], false), (&open[1..], false)] {
+        rows = all(app, usize::from(area.width), open, telling, from);
+        if rows.len() <= most {
+            return rows;
+        }
+    }
+    // The bar of the selected knob must be visible too.
+    let last = (place_of_selected(app, &rows).unwrap_or(0) + 2).min(rows.len());
+    rows.into_iter().skip(last.saturating_sub(most)).take(most).collect()
 }
 
-/// Returns all lines with the groups in `open` unfolded. With `telling`, folded groups also list
-/// the knobs by which the scene leaves the paper's model. A column that does not begin with the
-/// first knob has no bar; the strip above it has.
-fn all(app: &App, open: &[Group], telling: bool, from: usize) -> Vec<ColumnLine> {
-    let mut lines = Vec::new();
+/// Returns all rows with the groups in `open` unfolded. With `telling`, folded groups also list the
+/// knobs by which the scene leaves the paper's model. A column that does not begin with the first
+/// knob has no bar; the strip above it has.
+fn all(app: &App, width: usize, open: &[Group], telling: bool, from: usize) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let mut push = |place, (text, style)| rows.push(Row { place, text, style });
     for &group in Group::VARIANTS {
-        let open = open.contains(&group);
-        match (open, group) {
+        let is_open = open.contains(&group);
+        let first = group.knobs().next().map_or(0, |(place, _)| place);
+        match (is_open, group) {
             // The first group needs no heading.
             (true, Group::Operation) => {}
-            (true, _) => lines.push(ColumnLine::Heading(group)),
-            (false, _) => lines.push(ColumnLine::Folded(group)),
+            (true, _) => push(first, heading(app, width, group)),
+            (false, _) => push(first, folded(app, width, group)),
         }
-        let shown = |place: &usize| {
-            let knob = KNOBS.get(*place);
-            open || (telling && knob.is_some_and(|knob| knob.leaves_the_paper(&app.scene)))
-        };
-        for place in group.places().filter(|place| *place >= from).filter(shown) {
-            lines.push(ColumnLine::Knob(place));
-            let range = |knob: &Knob| knob.range(&app.scene, &app.files.opened, &app.machine);
-            let is_selected = place == app.knobs.selected;
-            if from == 0 && is_selected && KNOBS.get(place).and_then(range).is_some() {
-                lines.push(ColumnLine::Bar(place));
+        for (place, own) in group.knobs().filter(|(place, _)| *place >= from) {
+            let is_shown = is_open || telling && own.leaves_the_paper(&app.scene);
+            if !is_shown {
+                continue;
+            }
+            let selected = place == app.knobs.selected;
+            push(place, knob(app, width, own, selected));
+            if from == 0 && selected && app.range(own).is_some() {
+                push(place, (String::new(), Style::new()));
             }
         }
     }
-    lines
+    rows
 }
 
 /// Draws the bar of the selected knob into `cells`; its end marks are outside. Knobs without a
 /// numeric range have no bar.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
-    let Some(range) = knob.range(&app.scene, &app.files.opened, &app.machine) else { return };
+    let Some(range) = app.range(knob) else { return };
     if cells.width == 0 {
         return;
     }
@@ -294,6 +265,7 @@ fn cell(cells: Rect, part: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tui::knobs::KNOBS;
 
     #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {

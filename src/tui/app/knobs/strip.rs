@@ -75,7 +75,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, listed: bool) {
 /// near, or the ends of the bar; of a knob without a bar its words.
 fn bar(app: &App, buffer: &mut Buffer, row: Rect, knob: &Knob) {
     let look = &app.appearance;
-    let range = knob.range(&app.scene, &app.files.opened, &app.machine);
+    let range = app.range(knob);
     let value = knob.number(&app.scene);
     let inert = knob.inert(&app.scene).map(|why| format!("no effect now: {why}"));
     let near = || range.as_ref()?.near_mark(value?);

@@ -107,7 +107,7 @@ impl MapAxis {
         unit: f64,
     ) -> Result<Axis, String> {
         let knob = knob_of(self.path).ok_or_else(|| format!("{} is no knob", self.path))?;
-        let bar = knob.range_around(self.anchor, scene, &scene.machine());
+        let bar = knob.range(self.anchor, scene, &scene.machine());
         let (mut from, mut to, mut log) =
             bar.ok_or_else(|| format!("{} has no range", knob.label))?.ends(without);
         match self.path {
