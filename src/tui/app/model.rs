@@ -13,6 +13,7 @@ use crate::tui::engine::{Answer, Moves, Snapshot};
 use crate::tui::field::Field;
 use crate::tui::files::FoundScenes;
 use crate::tui::film::FilmPlan;
+use crate::tui::knobs::KnobRange;
 use crate::tui::lessons::LessonsDone;
 use crate::tui::raster::Marker;
 use crate::tui::theme::Theme;
@@ -39,6 +40,8 @@ pub struct App {
     pub machine: Machine,
     /// Its lock windows for forward and backward rotation, once asked.
     pub locks: [OnceCell<Option<LockWindow>>; 2],
+    /// The ranges of the bars drawn so far, by the path of the knob and the bits of its opened value.
+    pub ranges: RefCell<std::collections::BTreeMap<(&'static str, u64), Option<KnobRange>>>,
     /// Message in the status line, usually about the last key; `None` shows the keys instead.
     pub status: Option<String>,
     /// The selected knob, and undo.
@@ -85,6 +88,7 @@ impl App {
             appearance: Appearance { rpm, ..Appearance::new(theme, marker) },
             machine,
             locks: Default::default(),
+            ranges: Default::default(),
             scene,
         }
     }

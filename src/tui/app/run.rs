@@ -182,6 +182,7 @@ impl App {
         self.scene = scene;
         self.machine = self.scene.machine();
         self.locks = Default::default();
+        self.ranges = Default::default();
         if self.machine.clearance() != clearance {
             let follow = self.run.ranges.follow;
             self.run.ranges = Ranges { follow, ..Ranges::of(self.machine.clearance()) };

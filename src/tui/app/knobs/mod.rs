@@ -51,9 +51,12 @@ impl App {
 
     /// Returns the range of a knob's bar with its marks; `None` if the knob has no bar. It follows
     /// from the opened scene and the machine, and hardly from the present value except for its sign,
-    /// so that the scale stays put while the knob turns.
+    /// so that the scale stays put while the knob turns. It is computed once for a scene: limits
+    /// that are searched take milliseconds, and several parts of each frame need it.
     pub fn range(&self, knob: &Knob) -> Option<KnobRange> {
-        knob.range(knob.number(&self.files.opened)?, &self.scene, &self.machine)
+        let opened = knob.number(&self.files.opened)?;
+        let range = || knob.range(opened, &self.scene, &self.machine);
+        self.ranges.borrow_mut().entry((knob.path, opened.to_bits())).or_insert_with(range).clone()
     }
 
     /// Captures the state that undo restores.
