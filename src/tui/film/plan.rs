@@ -161,6 +161,7 @@ mod tests {
             let all = film.arguments().into_iter();
             all.map(|(t, what)| format!("{t:?}:{what}")).collect::<Vec<_>>()
         };
+        assert_eq!([1e-3, 2e-3].map(|t| film.scene_at(t).operation.speed_rad_s), [500.0, 450.0]);
         assert_eq!(said(&film), ["0.002:operation.speed_rad_s=450.0", "0.003:pulse"]);
         assert_eq!((film.from_s, film.end_s), (3e-3, 3e-3 + film.scene.solver.end_s));
         let turned = film.changed(3e-3, &at(440.0)).changed(3e-3, &at(430.0));
