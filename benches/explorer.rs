@@ -16,7 +16,7 @@ use std::time::Duration;
 
 use bench::benchmark_group;
 use ratatui::{Terminal, backend::TestBackend};
-use rubscope::tui::worker::Playback;
+use rubscope::tui::worker::{PLAY_TIME, Playback};
 use rubscope::tui::{App, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
 use stepwise::{NoHost, Stepwise};
@@ -40,7 +40,7 @@ fn main() {
         });
     }
     // 33 ms of the clock, at the rate it starts with.
-    let mut playback = Playback::new(app().order());
+    let mut playback = Playback::new(app().order(), PLAY_TIME);
     while playback.is_computing() {
         playback.compute();
     }

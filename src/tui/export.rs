@@ -223,7 +223,7 @@ mod tests {
     fn a_picture_is_well_formed_and_says_what_the_screen_says() {
         let mut app = App::new(Scene::base().checked().unwrap(), Theme::Dark, Marker::Braille);
         let limit = std::time::Duration::MAX;
-        let mut playback = Playback::with_time_limit(app.order(), limit);
+        let mut playback = Playback::new(app.order(), limit);
         while playback.is_computing() {
             playback.compute();
         }

@@ -18,7 +18,7 @@ use super::options::ExploreOptions;
 use super::raster::Marker;
 use super::theme::Theme;
 use super::views::id::ViewId;
-use super::worker::Playback;
+use super::worker::{PLAY_TIME, Playback};
 use super::{ability, config, panels};
 use crate::sheet::line::clean;
 use rubscope_solver::scene::{CheckedScene, Scene};
@@ -145,7 +145,7 @@ impl Lines {
             if self.ordered.as_ref() == Some(&order) {
                 return;
             }
-            let engine = self.engine.get_or_insert_with(|| Playback::new(order.clone()));
+            let engine = self.engine.get_or_insert_with(|| Playback::new(order.clone(), PLAY_TIME));
             engine.apply(&order);
             while engine.is_computing() {
                 engine.compute();

@@ -101,7 +101,7 @@ fn scene_texts() {
 
 #[test]
 fn values_set_by_text() {
-    holds("set", 4000);
+    holds("set", 2500);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn changes_of_a_running_motion() {
 
 #[test]
 fn streams_of_keys() {
-    holds("keys", 40);
+    holds("keys", 30);
 }
 
 /// The seeds and words as files, for a fuzzer.

@@ -8,7 +8,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::{Terminal, backend::TestBackend};
 use rubscope::tui::engine::{Engine, Order, Snapshot};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::worker::Playback;
+use rubscope::tui::worker::{PLAY_TIME, Playback};
 use rubscope::tui::{App, Exit, Marker, Theme, run};
 use rubscope_solver::scene::Scene;
 
@@ -47,7 +47,7 @@ impl Engine for Sliced {
 
     fn take(&mut self) -> Option<Snapshot> {
         let order = self.1.as_ref()?;
-        let playback = self.0.get_or_insert_with(|| Playback::new(order.clone()));
+        let playback = self.0.get_or_insert_with(|| Playback::new(order.clone(), PLAY_TIME));
         playback.apply(order);
         if playback.is_computing() {
             playback.compute();

@@ -135,7 +135,9 @@ fn table(folder: &str, name: &str) -> PathBuf {
 fn tables(folder: &str) -> Vec<String> {
     let files = std::fs::read_dir(table(folder, "").parent().unwrap()).unwrap();
     let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let mut names: Vec<String> = names.map(|name| name.trim_end_matches(".txt").into()).collect();
+    let mut names: Vec<String> = names
+        .filter_map(|name| Some(name.strip_suffix(".txt").or(name.strip_suffix(".jsonl"))?.into()))
+        .collect();
     names.sort();
     names
 }

@@ -222,7 +222,8 @@ fn the_first_minute_is_as_it_says() {
 /// machine, so it is made only where it is missing.
 #[test]
 fn every_view_has_its_picture_on_the_page_of_the_explorer() {
-    for view in ["1", "2", "3", "4", "5", "6", "7", "8", "9"] {
+    let views = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
+    let check = |view: &str| {
         let scene = Scene::builtin(if view == "9" { "coincidence" } else { "paper-nd3" }).unwrap();
         let mut session = Session::open(80, 24, scene, Theme::Dark, Marker::Braille);
         session.engine.map_cells = usize::MAX;
@@ -236,5 +237,6 @@ fn every_view_has_its_picture_on_the_page_of_the_explorer() {
             assert_is_made(&file, &export::svg(&session.app));
         }
         assert!(include_str!("../../docs/explorer.md").contains(&format!("(../{file})")), "{file}");
-    }
+    };
+    std::thread::scope(|scope| views.map(|view| _ = scope.spawn(move || check(view))));
 }

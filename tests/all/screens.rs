@@ -2,7 +2,7 @@
 //!
 //! | line | it does |
 //! |---|---|
-//! | `@ 80x24 SCENE WORDS` | opens the explorer; words: `mono`, `ascii`, `stride=SECONDS`, `KEY=VALUE` |
+//! | `@ 80x24 SCENE WORDS` | opens the explorer; words: `mono`, `ascii`, `unchecked`, `stride=SECONDS`, `KEY=VALUE` |
 //! | `> KEYS` | presses them in one go; a line without keys lets two frames pass |
 //! | `>> KEYS` | presses them one by one |
 //! | `= 120x40` | gives the screen another size |
@@ -23,6 +23,7 @@ use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use rubscope::tui::{Marker, Theme};
 use rubscope_solver::scene::{Scene, keys};
 
+use crate::stepwise::Stepwise;
 use crate::tui_support::{Session, scene};
 
 files! { "screens": headers help knobs maps margins odd odd_laws odd_speeds odd_starts time views }
@@ -41,16 +42,20 @@ fn open(line: &str) -> Session {
         name => Scene::builtin(name).unwrap(),
     };
     let (mut theme, mut marker, mut stride) = (Theme::Dark, Marker::Braille, 3e-3);
+    let mut checks = true;
     for word in words {
         match word.split_once('=') {
             None if word == "ascii" => marker = Marker::Ascii,
             None if word == "mono" => theme = Theme::Mono,
-            None => panic!("{word}: allowed is ascii or mono"),
+            None if word == "unchecked" => checks = false,
+            None => panic!("{word}: allowed is ascii, mono or unchecked"),
             Some(("stride", seconds)) => stride = seconds.parse().unwrap(),
             Some((key, value)) => opened.set(key, value).unwrap(),
         }
     }
-    Session::with_stride(size, stride, opened, theme, marker)
+    let mut engine = Stepwise::new(stride);
+    engine.checks = checks;
+    Session::with_engine(size, engine, opened, theme, marker)
 }
 
 /// The keys of a line: signs for those that have no letter.

@@ -6,7 +6,7 @@ use std::io::Result;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use rubscope::tui::engine::{Engine, Limit, Order, Pace, Snapshot};
+use rubscope::tui::engine::{Engine, Limit, Order, Pace, Sensitive, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FoundScenes};
 use rubscope::tui::host::Host;
@@ -41,6 +41,8 @@ pub struct Stepwise {
     pub stride: f64,
     /// Cells of a map that are computed: all blocks of eight by eight, and some finer ones.
     pub map_cells: usize,
+    /// Whether a run is checked for tiny changes: four more runs.
+    pub checks: bool,
     order: Option<Order>,
     playback: Option<Playback>,
     fresh: bool,
@@ -49,7 +51,7 @@ pub struct Stepwise {
 impl Stepwise {
     /// Creates an engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self { stride, map_cells: 66, order: None, playback: None, fresh: false }
+        Self { stride, map_cells: 66, checks: true, order: None, playback: None, fresh: false }
     }
 }
 
@@ -61,10 +63,13 @@ impl Engine for Stepwise {
 
     fn take(&mut self) -> Option<Snapshot> {
         let order = self.order.as_ref()?;
-        let start = || Playback::with_time_limit(order.clone(), Duration::MAX);
+        let start = || Playback::new(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
-        playback.bound_maps(self.map_cells);
         playback.apply(order);
+        playback.films.studies.most_cells = Some(self.map_cells);
+        if !self.checks {
+            playback.films.sensitive = Some(Sensitive::Unknown);
+        }
         while playback.is_computing() {
             playback.compute();
         }

@@ -288,6 +288,7 @@ fn every_step_says_what_the_solvers_find(name: &str) {
     let lesson = &lessons::all()[place];
     let mut runs = Runs::default();
     let mut session = begin(120, 40, place);
+    session.engine.checks = false;
     for (number, step) in lesson.steps.iter().enumerate() {
         let at = format!("{}, step {}", lesson.title, number + 1);
         println!("{at}");

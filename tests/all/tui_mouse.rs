@@ -148,7 +148,10 @@ fn anything_in_every_state((width, height): (u16, u16)) {
     let kinds = [LEFT, HELD, Moved, ScrollUp, ScrollDown, Up(MouseButton::Left)];
     let states = ["", "f", "c", "?", "g", "\n12", "s", "i", "5", "2w", "4", "6"];
     for (place, keys) in states.iter().enumerate() {
-        let mut session = open(width, height);
+        let mut scene = scene();
+        scene.solver.end_s = 2e-3;
+        let mut session = Session::open(width, height, scene, Theme::Dark, Marker::Braille);
+        session.engine.checks = false;
         session.press(keys);
         for y in 0..=height {
             for x in (0..=width).step_by(if width > 100 { 23 } else { 11 }) {

@@ -54,15 +54,25 @@ impl Session {
     }
 
     pub fn with_stride(
-        (width, height): (u16, u16),
+        size: (u16, u16),
         stride: f64,
+        scene: Scene,
+        theme: Theme,
+        marker: Marker,
+    ) -> Self {
+        Self::with_engine(size, Stepwise::new(stride), scene, theme, marker)
+    }
+
+    pub fn with_engine(
+        (width, height): (u16, u16),
+        engine: Stepwise,
         scene: Scene,
         theme: Theme,
         marker: Marker,
     ) -> Self {
         let terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
         let app = App::new(scene.checked().unwrap(), theme, marker);
-        let mut session = Self { terminal, app, engine: Stepwise::new(stride) };
+        let mut session = Self { terminal, app, engine };
         session.press("");
         session
     }

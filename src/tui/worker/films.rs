@@ -24,7 +24,7 @@ pub struct Films {
     /// The film of the pinned run.
     pinned: Option<Film>,
     /// Outcome of the sensitivity check; `None` until it is complete or given up.
-    sensitive: Option<Sensitive>,
+    pub sensitive: Option<Sensitive>,
     /// The checks; `None` before they start, which is after the run.
     checks: Option<Job<Checks>>,
     /// The studies for the open views.

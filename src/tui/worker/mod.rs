@@ -8,5 +8,5 @@ mod studies;
 mod thread;
 
 pub use background::WORKER_NAME;
-pub use playback::Playback;
+pub use playback::{PLAY_TIME, Playback};
 pub use thread::Worker;

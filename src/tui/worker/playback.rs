@@ -17,7 +17,7 @@ const TURN: f64 = std::f64::consts::TAU / PER_TURN;
 /// Parts of a sample in which the turn of the wave is followed.
 const FINER: f64 = 8.0;
 /// Longest wall-clock time of one call of `play` in the explorer.
-const PLAY_LIMIT: Duration = Duration::from_millis(25);
+pub const PLAY_TIME: Duration = Duration::from_millis(25);
 /// Most wall-clock time that one tick makes up for, for example after a suspension.
 const LONGEST_TICK: Duration = Duration::from_millis(100);
 /// Longest wall-clock time of a jump; a second key press continues from there.
@@ -27,7 +27,8 @@ const JUMP_LIMIT: Duration = Duration::from_secs(1);
 #[derive(Debug)]
 pub struct Playback {
     order: Order,
-    films: Films,
+    /// The films and the studies.
+    pub films: Films,
     head: Head,
     /// Simulated time played to \[s\].
     t: f64,
@@ -48,13 +49,8 @@ pub struct Playback {
 }
 
 impl Playback {
-    /// Starts the film of an order.
-    pub fn new(order: Order) -> Self {
-        Self::with_time_limit(order, PLAY_LIMIT)
-    }
-
-    /// As [`Self::new`], with another limit on the wall-clock time per call of `play`.
-    pub fn with_time_limit(order: Order, time_limit: Duration) -> Self {
+    /// Starts the film of an order, with a limit on the wall-clock time per call of `play`.
+    pub fn new(order: Order, time_limit: Duration) -> Self {
         let films = Films::of(&order);
         let mut playback = Self {
             head: Head::of(&films.own),
@@ -72,11 +68,6 @@ impl Playback {
         };
         playback.make_moves();
         playback
-    }
-
-    /// Limits the number of computed map cells, for tests.
-    pub fn bound_maps(&mut self, cells: usize) {
-        self.films.studies.most_cells = Some(cells);
     }
 
     /// Applies a newer order.

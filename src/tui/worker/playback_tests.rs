@@ -18,7 +18,7 @@ fn settle(playback: &mut Playback) {
 }
 
 fn computed(order: &Order) -> Playback {
-    let mut playback = Playback::with_time_limit(order.clone(), Duration::MAX);
+    let mut playback = Playback::new(order.clone(), Duration::MAX);
     settle(&mut playback);
     playback
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::background::WORKER_NAME;
-use super::playback::Playback;
+use super::playback::{PLAY_TIME, Playback};
 use crate::tui::engine::{Engine, Order, Snapshot, Waker};
 
 /// Time between two ticks while the motion plays.
@@ -83,7 +83,7 @@ fn run(sent: &Receiver<Message>, latest: &Latest, wake: &Waker) {
                 playing = order.playing.then(|| playing.unwrap_or_else(Instant::now));
                 match &mut playback {
                     Some(playback) => playback.apply(&order),
-                    None => playback = Some(Playback::new(*order)),
+                    None => playback = Some(Playback::new(*order, PLAY_TIME)),
                 }
             }
             let playback = playback.as_mut()?;

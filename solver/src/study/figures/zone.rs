@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{Figure, Panel, Quantity, Series, Style, speed_marks};
 use crate::motion::{Verdict, run_to_verdict, to_the_end};
 use crate::numeric::search::bisected_to;
-use crate::scene::keys::{PULSE, SPEED};
+use crate::scene::keys::{DIAMETERS, PULSE, SPEED};
 use crate::scene::{CheckedScene, ContactLaw, Scene, SolverKind};
 use crate::study::{Axis, Map, MapPlan};
 
@@ -29,7 +29,7 @@ const FORCE: Quantity = Quantity::log("pulse_n", "force of the pulse [N]");
 pub fn zone(scene: &CheckedScene) -> Figure {
     let mut panels = both_laws(scene, ["(a)", "(b)"]);
     let mut caption = Vec::new();
-    if let Ok(four) = Scene::builtin("paper-nd4") {
+    if let Ok(four) = scene.clone().into_scene().with(&[(DIAMETERS, "4")]) {
         panels.extend(both_laws(&four, ["(c)", "(d)"]));
         let limits = panels.first().map(thresholds).unwrap_or_default();
         caption.push(format!(
