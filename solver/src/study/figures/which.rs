@@ -50,7 +50,7 @@ impl Which {
             5 => time::gaps(scene),
             6 => time::response(scene),
             7 => time::four_diameters(scene),
-            8 => zone::zone(scene),
+            8 => zone::zone(scene)?,
             9 => harmonic::multipliers(scene)?,
             _ => harmonic::amplitudes(scene)?,
         };
