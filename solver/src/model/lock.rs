@@ -12,7 +12,8 @@
 //!
 //! Read [`Machine::lock_windows`] first, then `windows`, the general case.
 
-use super::{Frame, Machine};
+use super::tip_corner::drag_factor;
+use super::{Frame, Machine, TipCorner};
 use crate::numeric::search::{geometric, zeros};
 
 /// Range of rotor speeds with a lock, flutter, whirl or growth, as the function that returns it
@@ -75,16 +76,20 @@ impl Machine {
         if self.out_of_round() != 0.0 {
             return self.lock_out_of_round().into_iter().collect();
         }
-        if self.has_unequal_tips() {
-            return self.windows_of_tips(toward);
+        let corners = self.other_corners();
+        let mut all: Vec<LockWindow> =
+            corners.iter().flat_map(|corner| self.windows_of(corner, toward)).collect();
+        all.sort_by(|one, other| one.from.total_cmp(&other.from));
+        let mut apart: Vec<LockWindow> = Vec::new();
+        for window in all {
+            let end = |window: &LockWindow| window.to.unwrap_or(f64::INFINITY);
+            match apart.last_mut().filter(|last| window.from <= end(last)) {
+                Some(last) if end(&window) > end(last) => last.to = window.to,
+                Some(_) => {}
+                None => apart.push(window),
+            }
         }
-        if !self.casing_feels_tips() && self.lining.is_none() {
-            let from = self.threshold(1.0 / self.polygon.delta.tan());
-            let window = from.map(|from| LockWindow { from, to: None });
-            return self.with_clearance(window.into_iter().collect());
-        }
-        let slope = self.polygon.delta.tan();
-        self.with_clearance(self.windows([(slope, 1.0), (slope, -1.0)], toward))
+        self.with_clearance(apart)
     }
 
     /// Returns whether the speeds at which pushes balance a lock are known; they are not if unequal
@@ -92,8 +97,8 @@ impl Machine {
     #[must_use]
     pub fn knows_locks(&self) -> bool {
         let shape = self.out_of_round() == 0.0 || self.lock_out_of_round().is_some();
-        let tips = !self.has_unequal_tips() || self.knows_tip_corners();
-        !self.polygon.has_corners() || self.clearance_at_rest() <= 0.0 || (shape && tips)
+        let nothing_locks = !self.polygon.has_corners() || self.clearance_at_rest() <= 0.0;
+        nothing_locks || (shape && self.knows_tip_corners())
     }
 
     /// Window for an out-of-round casing whose number of lobes equals `n_d`: the lobes act as the
@@ -126,24 +131,20 @@ impl Machine {
 
     /// Returns the adhesive speed: the lowest speed at which the paper's equality algorithm holds a
     /// lock, one multiplier being tensile \[rad/s\]. The formula is that of
-    /// [`lock_speed`](Self::lock_speed) with `tan delta` for `cot delta`. `None` without corners,
-    /// without clearance at rest, where no contact can pull, and for unequal tips if a lock of pushes
-    /// begins at a lower speed.
+    /// [`lock_speed`](Self::lock_speed) with `tan(beta - gamma)` for `cot gamma`. `None` without
+    /// corners, without clearance, where no contact can pull, out of round, and for unequal tips if a
+    /// lock of pushes begins at a lower speed.
     #[must_use]
     pub fn adhesive_speed(&self) -> Option<f64> {
-        if !self.contact_can_pull() || self.clearance_at_rest() <= 0.0 {
-            return None;
-        }
-        if self.is_uneven() {
-            let (corner, windows) = self.lowest_corner(1.0)?;
-            let slope = (corner.beta - corner.gamma).tan();
-            let known = self.out_of_round() == 0.0;
-            // If a lock of pushes begins below this speed, there is no range of adhesive locks.
-            let below = |speed: &f64| windows.first().is_none_or(|lock| *speed < lock.from);
-            return self.threshold(slope).filter(|speed| known && below(speed));
-        }
-        let from = self.threshold(self.polygon.delta.tan())?;
-        self.closing_speed().is_none_or(|closed| from < closed).then_some(from)
+        let known = self.contact_can_pull() && self.out_of_round() == 0.0;
+        let (corner, windows) = self.lowest_corner(1.0).filter(|_| known)?;
+        let slope = (corner.beta - corner.gamma).tan();
+        let speed = self.critical_speed()? * drag_factor(self.casing_damping_ratio * slope);
+        // If a lock of pushes begins below this speed, there is no range of adhesive locks.
+        let below = |lock: &LockWindow| !self.has_unequal_tips() || speed < lock.from;
+        let open = self.clearance_at_rest() > 0.0
+            && self.closing_speed().is_none_or(|closed| speed < closed);
+        (open && windows.first().is_none_or(below)).then_some(speed)
     }
 
     /// Returns whether every lock above the critical speed pushes: without damping, inclined tips
@@ -153,18 +154,11 @@ impl Machine {
         self.casing_damping == 0.0 && !self.casing_feels_tips() && self.lining.is_none()
     }
 
-    fn threshold(&self, slope: f64) -> Option<f64> {
-        let x = self.casing_damping_ratio * slope;
-        let factor = x + (x * x + 1.0).sqrt();
-        let critical = self.critical_speed()?;
-        self.polygon.has_corners().then_some(critical * factor)
-    }
-
     /// Returns the windows of speeds at which `slope Re(1/H) + sign Im(1/H) <= 0`, plus the term of
-    /// a lining, for both `sides`, each given as `(slope, sign)`. For equal tips without a lining
-    /// the two conditions together are `|arg(-1/H)| <= atan(slope)`. The sign of `toward` is the
+    /// a lining, for both sides of a corner ([`TipCorner::conditions`]). For equal tips without a
+    /// lining the two conditions together are `|arg(-1/H)| <= delta`. The sign of `toward` is the
     /// direction of rotation.
-    pub(super) fn windows(&self, sides: [(f64, f64); 2], toward: f64) -> Vec<LockWindow> {
+    pub(super) fn windows(&self, corner: &TipCorner, toward: f64) -> Vec<LockWindow> {
         let Some(critical) = self.critical_speed() else { return Vec::new() };
         if !self.polygon.has_corners() || self.has_other_diameters() {
             return Vec::new();
@@ -172,8 +166,9 @@ impl Machine {
         let sense = 1_f64.copysign(toward);
         let lining = self.lining.map_or(0.0, |lining| {
             let group = lining.stiffness_n_per_m * f64::from(self.polygon.blades_per_side);
-            1.0 / (group * (2.0 * self.polygon.delta).sin())
+            corner.gamma.cos() / (group * corner.beta.sin())
         });
+        let sides = corner.conditions();
         let excess = |speed: f64| {
             let inverse = Frame::at(self, sense * speed).impedance();
             let of_lining = lining * inverse.norm_sqr();
@@ -203,49 +198,44 @@ impl Machine {
         windows
     }
 
+    /// Returns the corner of which the loads of a lock are stated: that of equal tips, or the one
+    /// that is held at the lowest speed.
+    fn locked_corner(&self, toward: f64) -> Option<TipCorner> {
+        let clear = self.clearance() > 0.0;
+        let corner = match self.has_unequal_tips() {
+            true => self.lowest_corner(toward).map(|(corner, _)| corner),
+            false => self.other_corners().first().copied(),
+        };
+        corner.filter(|_| clear)
+    }
+
     /// Returns the amplitude of the locked casing wave, `g0/cos delta` \[m\]. `None` without
     /// corners or clearance, if no corner of unequal tips is held, and with inclined tips or a
     /// lining, where the amplitude depends on the speed.
     #[must_use]
     pub fn locked_amplitude(&self) -> Option<f64> {
-        let corners = self.polygon.has_corners() && self.clearance() > 0.0;
         let still = self.radial_coupling == 0.0 && self.lining.is_none();
-        if self.has_unequal_tips() {
-            let found = self.lowest_corner(1.0).filter(|_| still && corners);
-            return found.map(|(corner, _)| corner.distance);
-        }
-        (corners && still).then(|| self.clearance() / self.polygon.delta.cos())
+        self.locked_corner(1.0).filter(|_| still).map(|corner| corner.distance)
     }
 
     /// Returns the group multipliers `[lambda_a, lambda_b]` of the locked motion at a constant
-    /// speed, `psi_b = psi_a + 2 delta`; negative is a push \[N\].
+    /// speed, with the sides in the order of their phase; negative is a push \[N\].
     ///
     /// For rigid contact and blades that are rigid in rotation they are
-    /// `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)`. Without friction and inclined
-    /// tips `1/H = K + i D` with `K = k_c - nu^2 m_c` and `D = d_c nu`. `None` without corners,
-    /// with an interference fit, if inclined tips have modes with other nodal diameters than the
-    /// casing, and if no corner of unequal tips is held.
+    /// `(g0/2 cos delta)(Re(1/H)/cos delta -+ Im(1/H)/sin delta)` with equal tips. Without friction
+    /// and inclined tips `1/H = K + i D` with `K = k_c - nu^2 m_c` and `D = d_c nu`. `None` without
+    /// corners, with an interference fit, if inclined tips have modes with other nodal diameters
+    /// than the casing, and if no corner of unequal tips is held.
     #[must_use]
     pub fn locked_multipliers(&self, speed: f64) -> Option<[f64; 2]> {
         let here = self.at(speed);
-        if !here.polygon.has_corners() || here.clearance() <= 0.0 {
-            return None;
-        }
-        if here.casing_feels_tips() && here.has_other_diameters() {
-            return None;
-        }
-        let (sin, cos) = here.polygon.delta.sin_cos();
+        let known = !(here.casing_feels_tips() && here.has_other_diameters());
+        let corner = here.locked_corner(speed).filter(|_| known)?;
         let inverse = Frame::at(&here, speed).impedance();
-        let (stiff, drag) = (inverse.re, inverse.im);
-        if here.has_unequal_tips() {
-            let (corner, _) = here.lowest_corner(speed)?;
-            let scale = corner.distance / corner.beta.sin();
-            let [b, a] = corner.conditions().map(|(own, sign)| (own * stiff + sign * drag) * scale);
-            return Some([a, b]);
-        }
-        let (stiff, drag) = (stiff / cos, drag / sin);
-        let scale = here.clearance() / (2.0 * cos);
-        Some([scale * (stiff - drag), scale * (stiff + drag)])
+        let scale = corner.distance / corner.beta.sin();
+        let push = |(own, sign): (f64, f64)| (own * inverse.re + sign * inverse.im) * scale;
+        let [b, a] = corner.conditions().map(push);
+        Some([a, b])
     }
 
     /// Returns the largest deviation `e` of the tips, between `-e` and `e`, with which both sides of

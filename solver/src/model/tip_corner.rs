@@ -1,9 +1,10 @@
-//! Corners of the contact polygon with unequal tips (docs/theory.md, section 11).
+//! Corners of the contact polygon that hold the wave (docs/theory.md, sections 4 and 11).
 //!
-//! Unequal tips give the sides different apothems, so some sides are cut off and the remaining
-//! neighbours meet at other angles. This module finds the corners and the speeds at which pushes
-//! hold them: with the angle `gamma` from the outward normal of side `a` to the corner and the
-//! angle `beta` to the normal of side `b`, both sides push where `gamma - beta <= theta <= gamma`,
+//! With equal tips all corners are alike, and one represents them. Unequal tips give the sides
+//! different apothems, so some sides are cut off and the remaining neighbours meet at other angles.
+//! This module finds the corners and the speeds at which pushes hold them: with the angle `gamma`
+//! from the outward normal of side `a` to the corner and the angle `beta` to the normal of side `b`
+//! (`delta` and `2 delta` for equal tips), both sides push where `gamma - beta <= theta <= gamma`,
 //! `theta = -arg(-1/H)`, with the response `H` of the casing as in `lock.rs`.
 
 use std::f64::consts::{PI, TAU};
@@ -37,10 +38,7 @@ impl TipCorner {
     /// direction of rotation. `None` if pushes hold the corner at no speed.
     pub(super) fn window(&self, damping: f64, toward: f64) -> Option<LockWindow> {
         let gamma = if toward < 0.0 { self.beta - self.gamma } else { self.gamma };
-        let at = |angle: f64| {
-            let x = damping / angle.tan();
-            x + (x * x + 1.0).sqrt()
-        };
+        let at = |angle: f64| drag_factor(damping / angle.tan());
         if gamma <= 0.0 {
             // The drag of a slow wave acts nearly opposite to the corner, which may then be held
             // from standstill on.
@@ -64,8 +62,16 @@ impl Machine {
         met.map(|left| self.tip_corner([left.side, left.next])).collect()
     }
 
-    /// As [`tip_corners`](Self::tip_corners), with one corner of each run of equal neighbours.
-    fn other_tip_corners(&self) -> Vec<TipCorner> {
+    /// Returns the corners that differ: one for equal tips, otherwise one of each run of equal
+    /// neighbours. Empty without corners, and where unequal tips have no closed form.
+    pub(super) fn other_corners(&self) -> Vec<TipCorner> {
+        if !self.polygon.has_corners() || !self.knows_tip_corners() {
+            return Vec::new();
+        }
+        if !self.has_unequal_tips() {
+            let (gamma, distance) = (self.polygon.delta, self.clearance / self.polygon.delta.cos());
+            return vec![TipCorner { sides: [0, 1], gamma, beta: 2.0 * gamma, distance }];
+        }
         let mut corners = self.tip_corners();
         corners.dedup_by(|one, other| one.gamma == other.gamma && one.beta == other.beta);
         corners
@@ -82,53 +88,29 @@ impl Machine {
     }
 
     /// Returns the corner that pushes hold at the lowest speed, and its speed windows, for a rotor
-    /// that turns in the direction of the sign of `toward`. `None` if pushes hold no corner, and if
-    /// there is no closed form: on a lining, and with a clearance that changes with speed.
+    /// that turns in the direction of the sign of `toward`. `None` if pushes hold no corner, and
+    /// where unequal tips have no closed form.
     #[must_use]
     pub fn lowest_corner(&self, toward: f64) -> Option<(TipCorner, Vec<LockWindow>)> {
-        if !self.knows_tip_corners() {
-            return None;
-        }
-        let corners = self.other_tip_corners().into_iter();
+        let corners = self.other_corners().into_iter();
         let held = corners.map(|corner| (corner, self.windows_of(&corner, toward)));
         let lowest = |windows: &[LockWindow]| windows.first().map_or(f64::INFINITY, |of| of.from);
         held.filter(|(_, windows)| !windows.is_empty())
             .min_by(|(_, one), (_, other)| lowest(one).total_cmp(&lowest(other)))
     }
 
-    /// Whether the closed form for corners of unequal tips applies.
+    /// Returns whether the corners have a closed form: unequal tips have none on a lining, and with
+    /// a clearance that changes with speed.
     pub(super) fn knows_tip_corners(&self) -> bool {
-        self.polygon.has_corners() && self.lining.is_none() && self.clearance_loss() == 0.0
-    }
-
-    /// Returns the disjoint windows of speeds at which pushes hold at least one corner, in
-    /// increasing order; empty where there is no closed form.
-    pub(super) fn windows_of_tips(&self, toward: f64) -> Vec<LockWindow> {
-        if !self.knows_tip_corners() {
-            return Vec::new();
-        }
-        let corners = self.other_tip_corners();
-        let mut all: Vec<_> =
-            corners.iter().flat_map(|corner| self.windows_of(corner, toward)).collect();
-        all.sort_by(|one, other| one.from.total_cmp(&other.from));
-        let mut apart: Vec<LockWindow> = Vec::new();
-        for window in all {
-            let end = |window: &LockWindow| window.to.unwrap_or(f64::INFINITY);
-            match apart.last_mut().filter(|last| window.from <= end(last)) {
-                Some(last) if end(&window) > end(last) => last.to = window.to,
-                Some(_) => {}
-                None => apart.push(window),
-            }
-        }
-        apart
+        !self.has_unequal_tips() || (self.lining.is_none() && self.clearance_loss() == 0.0)
     }
 
     /// Returns the windows of speeds at which pushes hold one corner, for a rotor that turns in the
     /// direction of the sign of `toward`.
     #[must_use]
     pub fn windows_of(&self, corner: &TipCorner, toward: f64) -> Vec<LockWindow> {
-        if self.casing_feels_tips() {
-            return self.windows(corner.conditions(), toward);
+        if self.casing_feels_tips() || self.lining.is_some() {
+            return self.windows(corner, toward);
         }
         let scaled = || {
             let critical = self.critical_speed()?;
@@ -137,4 +119,9 @@ impl Machine {
         };
         scaled().into_iter().collect()
     }
+}
+
+/// Returns `x + sqrt(1 + x^2)`, the ratio of a lock speed to the critical speed.
+pub(super) fn drag_factor(x: f64) -> f64 {
+    x + (x * x + 1.0).sqrt()
 }
