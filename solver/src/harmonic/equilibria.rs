@@ -54,25 +54,6 @@ pub enum Character {
 }
 
 impl Character {
-    /// Classifies a steady state by its multipliers, by whether the equality algorithm would hold it
-    /// with pulls, by its smallest other gap, and by whether a motion about it grows.
-    pub(super) fn of(
-        pushes: bool,
-        held_by_pulls: bool,
-        smallest_gap: f64,
-        grows: impl FnOnce() -> bool,
-    ) -> Self {
-        if !pushes {
-            if held_by_pulls { Self::Adhesive } else { Self::Pulls }
-        } else if smallest_gap < 0.0 {
-            Self::Penetrates
-        } else if grows() {
-            Self::Unstable
-        } else {
-            Self::Stable
-        }
-    }
-
     /// Returns whether pushes can hold the state with all other gaps open.
     #[must_use]
     pub fn is_admissible(self) -> bool {
@@ -213,9 +194,7 @@ pub(super) fn judged(
         _ => held.eigenvalues().ok_or_else(|| error::unsettled(speed))?,
     };
     let open = held.smallest_gap(machine);
-    let held_by_pulls = kind == Kind::Corner && machine.contact_can_pull() && held.closes();
-    let character =
-        Character::of(held.pushes(), held_by_pulls, open, || grows(&eigenvalues, machine.omega_c));
+    let character = held.character(machine, open, || grows(&eigenvalues, machine.omega_c));
     let contact = |(&side, &multiplier_n): (&u32, &f64)| GroupContact {
         side,
         blades: machine.polygon.blades_of_side(side),
@@ -295,45 +274,39 @@ impl Branches {
     }
 }
 
-/// Returns the changes of `what` between neighbours of a list of speeds: the speed, and the values
-/// below and above.
+/// Returns the changes of `what` between neighbours of a list of speeds, as far as bisection finds
+/// them: the speed, and the values below and above.
 pub(super) fn changes<T: Copy + PartialEq>(
     speeds: &[f64],
     what: &impl Fn(f64) -> Result<T, SceneError>,
 ) -> Result<Vec<(f64, T, T)>, SceneError> {
-    let (mut found, mut sorted) = (Vec::new(), speeds.to_vec());
+    let mut sorted = speeds.to_vec();
     sorted.sort_by(f64::total_cmp);
-    for pair in sorted.windows(2) {
-        found.extend(changes_between(pair[0], pair[1], what)?);
-    }
-    Ok(found)
-}
-
-/// Returns the changes between two speeds as far as bisection finds them.
-fn changes_between<T: Copy + PartialEq>(
-    low: f64,
-    high: f64,
-    what: &impl Fn(f64) -> Result<T, SceneError>,
-) -> Result<Vec<(f64, T, T)>, SceneError> {
-    let mut found: Vec<(f64, T, T)> = Vec::new();
-    let (mut start, mut before, last) = (low, what(low)?, what(high)?);
-    while before != last && found.len() < BRANCH_CHANGES {
-        let mut after = last;
-        let [_, above] = try_bisected([start, high], 0.0, |speed| {
-            let here = what(speed)?;
-            let changed = here != before;
-            if changed {
-                after = here;
+    let known = sorted.iter().map(|&speed| Ok((speed, what(speed)?)));
+    let known = known.collect::<Result<Vec<(f64, T)>, SceneError>>()?;
+    let mut all = Vec::new();
+    for pair in known.windows(2) {
+        let ([(mut start, mut before), (high, last)], first) = ([pair[0], pair[1]], all.len());
+        while before != last && all.len() - first < BRANCH_CHANGES {
+            let mut after = last;
+            let [_, above] = try_bisected([start, high], 0.0, |speed| {
+                let here = what(speed)?;
+                let changed = here != before;
+                if changed {
+                    after = here;
+                }
+                Ok(changed)
+            })?;
+            match all[first..].last_mut() {
+                // A state that exists only at a single speed is not a branch; for example the side
+                // at the critical speed, where its contact force is infinite.
+                Some((at, _, now)) if above - *at <= 4.0 * f64::EPSILON * above.abs() => {
+                    *now = after;
+                }
+                _ => all.push((above, before, after)),
             }
-            Ok(changed)
-        })?;
-        match found.last_mut() {
-            // A state that exists only at a single speed is not a branch; for example the side at
-            // the critical speed, where its contact force is infinite.
-            Some(last) if above - last.0 <= 4.0 * f64::EPSILON * above.abs() => last.2 = after,
-            _ => found.push((above, before, after)),
+            (start, before) = (above, after);
         }
-        (start, before) = (above, after);
     }
-    Ok(found)
+    Ok(all)
 }

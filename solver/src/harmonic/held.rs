@@ -20,7 +20,7 @@ use nalgebra::{Complex, Matrix6, Vector4, Vector6};
 use serde::Serialize;
 use strum::{Display, EnumString, VariantNames};
 
-use super::Corner;
+use super::{Character, Corner};
 use crate::model::{Frame, Machine, Row};
 use crate::numeric::rounding::ROUND_OFF;
 
@@ -203,9 +203,28 @@ impl Held {
         least
     }
 
+    /// Classifies the state by its multipliers, its smallest other gap, and whether a motion about it
+    /// grows.
+    pub fn character(
+        &self,
+        machine: &Machine,
+        smallest_gap: f64,
+        grows: impl FnOnce() -> bool,
+    ) -> Character {
+        // The paper's equality algorithm holds a corner that it would close.
+        let adhesive = || self.rows.len() == 2 && machine.contact_can_pull() && self.closes();
+        match self.pushes() {
+            false if adhesive() => Character::Adhesive,
+            false => Character::Pulls,
+            true if smallest_gap < 0.0 => Character::Penetrates,
+            true if grows() => Character::Unstable,
+            true => Character::Stable,
+        }
+    }
+
     /// Returns whether every contact would close if the contact forces were removed. The equality
     /// of Eq. (11) then holds this state whatever the signs.
-    pub fn closes(&self) -> bool {
+    fn closes(&self) -> bool {
         let [casing, blades] = [self.frame.casing.mass, self.frame.blades.mass];
         let moved = |row: &Row, by: &Row| {
             let product = row.gap.component_mul(&by.force);

@@ -124,9 +124,8 @@ impl Locked {
         let machine = &*self.machine.at(speed);
         let held = Held::in_corner(machine, speed, self.corner, self.form)?;
         let smallest_gap_m = held.smallest_gap(machine);
-        let held_by_pulls = machine.contact_can_pull() && held.closes();
         let mut growth = None;
-        let character = Character::of(held.pushes(), held_by_pulls, smallest_gap_m, || {
+        let character = held.character(machine, smallest_gap_m, || {
             growth = held.growth();
             growth.is_some()
         });

@@ -95,11 +95,16 @@ impl SlipPoint {
 /// The polygon has no corners, the tips act on the casing otherwise than in the paper, there is no
 /// clearance, or a speed is not finite.
 pub fn slip_over(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipPoint>, SceneError> {
+    refuse(machine, speeds)?;
+    Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
+}
+
+/// Rejects machines without these equations, and speeds that are not finite.
+fn refuse(machine: &Machine, speeds: &[f64]) -> Result<(), SceneError> {
     error::refuse_tips_on_casing(machine, "slip")?;
     error::refuse_preload(&machine.at(0.0))?;
     error::refuse_no_corner(&machine.polygon)?;
-    error::refuse_endless(speeds)?;
-    Ok(speeds.iter().map(|&speed| point(machine, speed)).collect())
+    error::refuse_endless(speeds)
 }
 
 /// A speed at which slip appears or vanishes.
@@ -117,7 +122,7 @@ pub struct SlipLimit {
 /// # Errors
 /// As [`slip_over`].
 pub fn slip_limits(machine: &Machine, speeds: &[f64]) -> Result<Vec<SlipLimit>, SceneError> {
-    slip_over(machine, speeds)?;
+    refuse(machine, speeds)?;
     let found = changes(speeds, &|speed| Ok(point(machine, speed).exists()))?;
     let limit = |(speed_rad_s, _, appears)| SlipLimit { speed_rad_s, appears };
     Ok(found.into_iter().map(limit).collect())
