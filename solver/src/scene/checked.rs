@@ -1,11 +1,13 @@
 //! A scene that has passed all checks; the solvers accept only this type.
 
-use super::{keys, modes};
 use std::ops::Deref;
 
 use serde::Serialize;
 
-use super::{ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverKind, check};
+use super::keys::{self, LAW, MODEL, SOLVER};
+use super::{
+    ContactLaw, KEYS, ModelSize, Scene, SceneError, SolverChoice, SolverKind, check, modes,
+};
 
 /// A scene whose keys and combinations of keys are all allowed.
 ///
@@ -112,54 +114,45 @@ impl Scene {
     /// Changes solver, contact law and model so that they are compatible with the keys that the
     /// user set (`asked`), which themselves stay. Returns what was changed.
     pub fn make_compatible(&mut self, asked: impl Fn(&str) -> bool) -> Vec<Adjustment> {
-        const KIND: &str = keys::SOLVER;
-        const CONTACT: &str = keys::LAW;
-        const MODEL: &str = keys::MODEL;
         let mut made = Vec::new();
-        let beyond_the_paper = [
+        let needs = [
             (keys::RADIAL_COUPLING, self.bladed_disk.radial_coupling, "takes no inclined tips"),
             (keys::FRICTION, self.contact.friction, "takes no friction"),
             (keys::RESTITUTION, self.contact.restitution, "takes no restitution"),
         ];
-        let needs =
-            beyond_the_paper.into_iter().find(|(key, value, _)| *value != 0.0 && asked(key));
-        let solver = &mut self.solver;
+        let needs = needs.into_iter().find(|(key, value, _)| *value != 0.0 && asked(key));
+        let mut change = |key, from, to, why| made.push(Adjustment { key, from, to, why });
         if let Some((_, _, why)) = needs
-            && solver.contact == ContactLaw::Bilateral
-            && !asked(CONTACT)
+            && self.solver.contact == ContactLaw::Bilateral
+            && !asked(LAW)
         {
-            made.push(Adjustment { key: CONTACT, from: "bilateral", to: "unilateral", why });
-            solver.contact = ContactLaw::Unilateral;
+            change(LAW, "bilateral", "unilateral", why);
+            self.solver.contact = ContactLaw::Unilateral;
         }
-        if solver.kind != SolverKind::Event {
+        if self.solver.kind == SolverKind::Explicit {
             return made;
         }
-        if !asked(KIND) {
-            if let Err(SceneError::Refused { key, .. }) = self.checked()
+        if !asked(SOLVER) {
+            let refused = self.checked().err();
+            let by_steps = SolverChoice { kind: SolverKind::Explicit, ..self.solver.clone() };
+            let by_steps = Self { solver: by_steps, ..self.clone() };
+            if let Some(SceneError::Refused { key, .. }) = refused
                 && asked(&key)
+                && by_steps.checked().is_ok()
             {
-                let mut by_steps = self.clone();
-                by_steps.solver.kind = SolverKind::Explicit;
-                if by_steps.checked().is_ok() {
-                    *self = by_steps;
-                    let why = "cannot do this";
-                    made.push(Adjustment { key: KIND, from: "event", to: "explicit", why });
-                }
+                *self = by_steps;
+                change(SOLVER, "event", "explicit", "cannot do this");
             }
             return made;
         }
-        let law = solver.contact.lacks_events().map(|_| solver.contact.into());
         let why = "the event solver does not know";
-        let full = solver.model == ModelSize::Full;
-        if let Some(from) = law
-            && !asked(CONTACT)
-        {
-            made.push(Adjustment { key: CONTACT, from, to: "unilateral", why });
-            solver.contact = ContactLaw::Unilateral;
+        if self.solver.contact.lacks_events().is_some() && !asked(LAW) {
+            change(LAW, self.solver.contact.into(), "unilateral", why);
+            self.solver.contact = ContactLaw::Unilateral;
         }
-        if full && !asked(MODEL) {
-            made.push(Adjustment { key: MODEL, from: "full", to: "modal", why });
-            solver.model = ModelSize::Modal;
+        if self.solver.model == ModelSize::Full && !asked(MODEL) {
+            change(MODEL, "full", "modal", why);
+            self.solver.model = ModelSize::Modal;
         }
         made
     }

@@ -389,22 +389,10 @@ macro_rules! word {
             |scene, text| if let Ok(choice) = text.parse::<$type>() { scene.$($field).+ = choice })
     };
 }
-macro_rules! numbers {
-    ($path:expr, $live:ident, $unit:literal, $what:literal, $size:literal, $($field:ident).+) => {
-        key!($path, $live, $unit, $what, Allowed::Numbers { size: $size, most: 4096 },
-            Numbers, |scene| scene.$($field).+.clone(), |scene, list| scene.$($field).+ = list)
-    };
-}
 macro_rules! text {
     ($path:expr, $live:ident, $what:literal, $most:literal, $($field:ident).+) => {
         key!($path, $live, "-", $what, Allowed::Text { most: $most },
             Text, |scene| scene.$($field).+.clone(), |scene, text| scene.$($field).+ = text)
-    };
-}
-macro_rules! charts {
-    ($path:expr, $live:ident, $what:literal, $($field:ident).+) => {
-        key!($path, $live, "-", $what, Allowed::SomeOf(CHARTS),
-            Words, |scene| scene.$($field).+.clone(), |scene, words| scene.$($field).+ = words)
     };
 }
 
@@ -436,29 +424,27 @@ pub const CASING_FREQUENCY: &str = "casing.frequency_hz";
 /// Path of the frequency of the disk.
 pub const BLADE_FREQUENCY: &str = "bladed_disk.frequency_hz";
 
+/// Builds the key of a frequency: 0 of the casing, 1 of the disk.
+macro_rules! frequency {
+    ($path:ident, $what:literal, $which:literal) => {
+        key!(
+            $path,
+            Steps,
+            "Hz",
+            $what,
+            Allowed::Real { min: 0.0, max: MOST_HZ, above: true },
+            Real,
+            |scene| scene.frequency($which),
+            |scene, hertz| scene.set_frequency($which, hertz)
+        )
+    };
+}
+
 /// The frequencies at rest of the modes in use of casing and disk \[Hz\]. A file has them in its lists
 /// of modes; where a mode gives none, the stiffness is set that yields it.
 pub static FREQUENCY_KEYS: [Key; 2] = [
-    key!(
-        CASING_FREQUENCY,
-        Steps,
-        "Hz",
-        "frequency of the casing",
-        Allowed::Real { min: 0.0, max: MOST_HZ, above: true },
-        Real,
-        |scene| scene.frequency(0),
-        |scene, hertz| scene.set_frequency(0, hertz)
-    ),
-    key!(
-        BLADE_FREQUENCY,
-        Steps,
-        "Hz",
-        "frequency of the disk",
-        Allowed::Real { min: 0.0, max: MOST_HZ, above: true },
-        Real,
-        |scene| scene.frequency(1),
-        |scene, hertz| scene.set_frequency(1, hertz)
-    ),
+    frequency!(CASING_FREQUENCY, "frequency of the casing", 0),
+    frequency!(BLADE_FREQUENCY, "frequency of the disk", 1),
 ];
 
 /// Builds the [`Handle`] of a key, if it has one.
@@ -514,7 +500,8 @@ keys! {
         "mistuning" Linear(0.005, 0.01) "scatter of the blade stiffness k_b (standard deviation, full model)";
     MISTUNING_SEED "bladed_disk.mistuning_seed" = whole(Never, "seed of the random blade stiffnesses, seed", 0..1_000_000, bladed_disk.mistuning_seed),
         "draw" Whole(1, 10) "seed of the random blade stiffnesses";
-    TIPS "bladed_disk.tips_m" = numbers(Steps, "m", "extra length of each blade, one number per blade", 1.0, bladed_disk.tips_m);
+    TIPS "bladed_disk.tips_m" = key(Steps, "m", "extra length of each blade, one number per blade", Allowed::Numbers { size: 1.0, most: 4096 }, Numbers,
+        |scene| scene.bladed_disk.tips_m.clone(), |scene, list| scene.bladed_disk.tips_m = list);
     TIP_SCATTER "bladed_disk.tip_scatter_m" = real(Steps, "m", "standard deviation of the blade lengths, sigma_b", false 0.0..1.0, bladed_disk.tip_scatter_m),
         "tip scatter" Decades(1e-9) "standard deviation of the blade lengths; 0 for equal tips";
     TIP_SEED "bladed_disk.tip_seed" = whole(Steps, "seed of the random blade lengths, seed_b", 0..1_000_000, bladed_disk.tip_seed),
@@ -585,7 +572,8 @@ keys! {
         "step h" Decades(1e-12) "time step of the explicit solver: shorter is more accurate and slower";
     END "solver.end_s" = real(Aside, "s", "end of the simulation", true 0.0..1e6, solver.end_s),
         "run end" Decades(1e-9) "end of the run; the verdict describes its last tenth";
-    VIEW_CHARTS "view.charts" = charts(Aside, "charts the explorer opens with", view.charts);
+    VIEW_CHARTS "view.charts" = key(Aside, "-", "charts the explorer opens with", Allowed::SomeOf(CHARTS), Words,
+        |scene| scene.view.charts.clone(), |scene, words| scene.view.charts = words);
     VIEW_BEGIN "view.begin_s" = real(Aside, "s", "time at which the explorer starts to play, or solver.end_s if earlier", false 0.0..1e6, view.begin_s);
     VIEW_SPEEDS "view.speeds" = text(Aside, "speeds of the machine, such as 7000rpm:12000rpm, for the survey; empty for all", 60, view.speeds);
 }

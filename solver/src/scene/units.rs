@@ -187,9 +187,11 @@ impl Quantity {
         if let Ok(number) = text.parse() {
             return Ok(number);
         }
-        let end = number_end(text);
-        let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
-        let decimal = Decimal::parse(number).ok_or(UnitError::NoNumber)?;
+        // Signs, digits, point and power of ten; an `e` that no power follows belongs to the unit.
+        let rest = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c));
+        let number = text.strip_suffix(rest).unwrap_or(text).trim_end_matches(['e', 'E', '+', '-']);
+        let unit = text.strip_prefix(number).unwrap_or(rest);
+        number.parse::<f64>().map_err(|_| UnitError::NoNumber)?;
         let after = unit.strip_prefix(',');
         if after.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
             return Err(UnitError::Comma);
@@ -200,7 +202,11 @@ impl Quantity {
             return Err(UnitError::Thousands(number.to_string()));
         }
         let (power, factor) = self.scale(&written).ok_or_else(|| self.refused(&written, unit))?;
-        let scaled = decimal.times_ten_to(power).ok_or(UnitError::NoNumber)?;
+        // Parsed as one decimal number, so that it is rounded only once.
+        let (digits, given) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+        let power = given.parse().ok().and_then(|given: i32| given.checked_add(power));
+        let scaled = power.and_then(|power| format!("{digits}e{power}").parse().ok());
+        let scaled: f64 = scaled.ok_or(UnitError::NoNumber)?;
         Ok(if factor == 1.0 { scaled } else { scaled * factor })
     }
 
@@ -292,46 +298,6 @@ fn may_be_thousands(number: &str) -> bool {
         && !whole.starts_with('0')
         && is_digits(whole)
         && is_digits(decimals)
-}
-
-/// Returns the length of the decimal number at the start of a text.
-fn number_end(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
-    let sign = |at: usize| usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
-    let mut end = sign(0);
-    while digit(end) || bytes.get(end) == Some(&b'.') {
-        end += 1;
-    }
-    if matches!(bytes.get(end), Some(b'e' | b'E')) && digit(end + 1 + sign(end + 1)) {
-        end += 1 + sign(end + 1);
-        while digit(end) {
-            end += 1;
-        }
-    }
-    end
-}
-
-/// A decimal number: digits with sign and point, and the power of ten.
-struct Decimal<'a> {
-    digits: &'a str,
-    power: i32,
-}
-
-impl<'a> Decimal<'a> {
-    fn parse(text: &'a str) -> Option<Self> {
-        let (digits, power) = match text.split_once(['e', 'E']) {
-            Some((digits, power)) => (digits, power.parse().ok()?),
-            None => (text, 0),
-        };
-        digits.parse::<f64>().ok().map(|_| Self { digits, power })
-    }
-
-    /// Multiplies by a power of ten. The product is parsed as one decimal number, so that it is
-    /// rounded only once.
-    fn times_ten_to(&self, power: i32) -> Option<f64> {
-        format!("{}e{}", self.digits, self.power.checked_add(power)?).parse().ok()
-    }
 }
 
 #[cfg(test)]
