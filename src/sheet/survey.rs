@@ -213,10 +213,10 @@ fn verdict(survey: &Survey, row: &SurveyRow) -> [String; 2] {
 }
 
 /// Returns the speeds at which a large rub whirls or grows without bound, one sentence for all rows
-/// with the same speeds.
+/// with the same speeds. Rows with guessed modes have no sentence.
 fn growth(survey: &Survey, shown: &[&SurveyRow]) -> Vec<String> {
     let mut told: Vec<(Vec<u32>, String)> = Vec::new();
-    for row in shown.iter().filter(|row| !row.growth_spans.is_empty()) {
+    for row in shown.iter().filter(|row| !row.guessed && !row.growth_spans.is_empty()) {
         let all = [(&row.whirl_spans, "whirls"), (&row.growth_spans, "grows without bound")];
         let each = all.iter().flat_map(|(spans, does)| {
             spans.iter().map(move |span| format!("{does} {}", within(survey, span).1))
@@ -266,12 +266,12 @@ pub fn of_scatter(scene: &Scene, scattered: &Scattered) -> String {
     let speeds = [scattered.mean_rad_s, scattered.equal_rad_s];
     let [mean, equal] = speeds.map(|omega| with_unit(omega, 4, "rad/s"));
     let of = match scene.is_uneven() {
-        true => "the tips and the casing of the scene; equal tips have the highest lock speed",
-        false => "equal tips in a round casing; unequal tips lock at lower speeds",
+        true => "the tips and the casing of the scene. In a round casing tips",
+        false => "equal tips in a round casing; unequal tips lock at lower speeds. Tips",
     };
     format!(
-        "The limits are for {of}. Tips that differ by 1 % of the clearance lock from {mean} \
-         instead of {equal} (mean of {} rotors).",
+        "The limits are for {of} that differ by 1 % of the clearance lock from {mean} instead of \
+         {equal} (mean of {} rotors).",
         scattered.rotors
     )
 }

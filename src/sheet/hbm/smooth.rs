@@ -2,13 +2,13 @@
 //! limit cycles; with a clearance they are locks and whirl, with the least stiffness that holds a
 //! lock.
 
-use super::view::{Request, View, ViewContact, speeds_of};
+use super::view::{Request, View, ViewContact, all_speeds};
 use crate::sheet::Sheet;
 use crate::sheet::number::{short, speed};
 use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     Cycle, HopfPoint, Lining, LiningState, Rest, growth_threshold, least_lock_stiffness,
-    lock_window, shifted_coincidence,
+    lock_windows, shifted_coincidence,
 };
 use rubscope_solver::scene::{ContactLaw, SceneError, keys};
 
@@ -47,7 +47,8 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
     let hopf = if pressed && from < to { lining.hopf_points([from, to])? } else { Vec::new() };
     let shifted = shifted_coincidence(scene, fastest);
     let threshold = growth_threshold(machine, fastest);
-    let (window, least) = (lock_window(machine, fastest), least_lock_stiffness(machine));
+    let (locks, least) = (lock_windows(machine, fastest), least_lock_stiffness(machine));
+    let window = locks.first();
     sheet.fact("preload_m", lining.preload_m());
     sheet.fact("stiffness_at_rest_n_per_m", lining.stiffness_at_rest());
     sheet.fact("shifted_coincidence_rad_s", shifted);
@@ -71,13 +72,10 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
     }
     let mut title = "Steady states in the frame of the blades.".to_string();
     if let Some(least) = least {
-        let held = window.map_or_else(
-            || "holds it at no speed".to_string(),
-            |window| format!("holds it {}", speeds_of(window)),
-        );
+        let held = if locks.is_empty() { "at no speed".into() } else { all_speeds(&locks) };
         title += &format!(
             " Without smoothing a lock of two groups needs a lining of at least {} N/m (at {}); one \
-             of {} N/m {held}.",
+             of {} N/m holds it {held}.",
             short(least.stiffness_n_per_m),
             speed(least.speed_rad_s),
             short(lining.law.stiffness_n_per_m)

@@ -1,10 +1,10 @@
 //! A view of the steady states, and the part that all views have: the machine, its limits, and the
 //! assumptions behind the numbers.
 
-use crate::sheet::line::capital;
+use crate::sheet::line::{capital, listed};
 use crate::sheet::number::{count, rounded, short, span, speed};
 use crate::sheet::{CommandLine, Sheet};
-use rubscope_solver::harmonic::{Corner, Form, Locked, lock_window};
+use rubscope_solver::harmonic::{Corner, Form, Locked, lock_windows};
 use rubscope_solver::model::{LockWindow, Machine};
 use rubscope_solver::scene::{Scene, SceneError, keys};
 
@@ -149,7 +149,8 @@ impl<'a> Request<'a> {
     fn tell(&self, damped: bool, sheet: &mut Sheet) {
         let Self { scene, machine, .. } = self;
         let (speed, notes) = (self.fastest(), notes(scene, machine));
-        let window = lock_window(machine, speed);
+        let locks = lock_windows(machine, speed);
+        let window = locks.first();
         sheet.fact("form", self.form);
         sheet.fact("damped", self.damped);
         if !notes.is_empty() {
@@ -179,30 +180,30 @@ impl<'a> Request<'a> {
             count(u64::from(polygon.blades_per_side), "blade"),
             short(machine.clearance())
         ));
-        self.limits(damped).into_iter().for_each(|limits| sheet.line(limits));
+        self.limits(&locks, damped).into_iter().for_each(|limits| sheet.line(limits));
         notes.iter().for_each(|note| sheet.line(format!("These numbers are {note}.")));
     }
 
-    /// States the critical speed, the speeds of the lock and the dangerous coincidence; `None`
-    /// without a critical speed.
-    fn limits(&self, damped: bool) -> Option<String> {
+    /// States the critical speed, the speeds at which it `locks`, and the dangerous coincidence;
+    /// `None` without a critical speed.
+    fn limits(&self, locks: &[LockWindow], damped: bool) -> Option<String> {
         let (machine, toward) = (&self.machine, self.fastest());
         let critical = machine.critical_speed()?;
-        let lock_of = |machine: &Machine| lock_window(machine, toward).map(speeds_of);
         let zeta = short(machine.casing_damping_ratio);
         // On a lining, groups of more blades may lock at other speeds.
         let groups = if machine.lining.is_some() { " of two groups" } else { "" };
-        let lock = lock_of(machine).map(|lock| match damped {
-            true => format!(", lock{groups} {lock} (zeta_c = {zeta})"),
-            false => {
-                let without = lock_of(&machine.clone().undamped()).unwrap_or_default();
+        let lock = match (all_speeds(locks), damped) {
+            (lock, _) if lock.is_empty() => lock,
+            (lock, true) => format!(", lock{groups} {lock} (zeta_c = {zeta})"),
+            (lock, false) => {
+                let without = all_speeds(&lock_windows(&machine.clone().undamped(), toward));
                 format!(", lock{groups} {without} without damping, {lock} with zeta_c = {zeta}")
             }
-        });
+        };
         let dangerous = machine.dangerous_speed_toward(toward);
         let dangerous = dangerous.map(|at| format!(", dangerous coincidence {}", speed(at)));
-        let rest = [lock, dangerous].into_iter().flatten().collect::<String>();
-        Some(format!("Critical speed {}{rest}.", speed(critical)))
+        let dangerous = dangerous.unwrap_or_default();
+        Some(format!("Critical speed {}{lock}{dangerous}.", speed(critical)))
     }
 }
 
@@ -213,7 +214,9 @@ fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
     hard.into_iter().chain(scene.tuned_note()).collect()
 }
 
-/// Describes a window of rotor speeds, such as those of a lock.
-pub(super) fn speeds_of(window: LockWindow) -> String {
-    span(Some(window.from).filter(|from| *from > 0.0), window.to, 6)
+/// Describes windows of rotor speeds, such as those of a lock; empty without one.
+pub(super) fn all_speeds(windows: &[LockWindow]) -> String {
+    let from = |window: &LockWindow| Some(window.from).filter(|from| *from > 0.0);
+    let each = windows.iter().map(|window| span(from(window), window.to, 6));
+    listed(&each.collect::<Vec<_>>(), "and")
 }

@@ -1,14 +1,13 @@
 //! The view `--whirl`: whirl of inclined tips in the limit of many blades, its onset, and the speed
 //! at which a lock begins to flutter.
 
-use super::view::{Request, View, speeds_of};
+use super::view::{Request, View, all_speeds};
 use crate::sheet::Sheet;
-use crate::sheet::line::listed;
 use crate::sheet::table::{Column, Table, TableCell};
 use rubscope_solver::harmonic::{
     RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
 };
-use rubscope_solver::model::{LockWindow, Machine};
+use rubscope_solver::model::Machine;
 use rubscope_solver::scene::SceneError;
 
 pub const WHIRL: View = View::new(
@@ -24,43 +23,46 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
     let rows: Vec<WhirlRow> = rows.collect();
     let ranges = SpeedRanges::new(machine, toward);
     let (whirls, flutter) = (ranges.whirls(), ranges.flutters());
-    let window = ranges.locks().first().copied();
-    let each = |spans: &[LockWindow]| {
-        listed(&spans.iter().copied().map(speeds_of).collect::<Vec<_>>(), "and")
-    };
     let mut title = match whirls {
-        [] => "Nothing whirls on a rim of many blades".to_string(),
-        spans => format!("On a rim of many blades whirl lasts {}", each(spans)),
+        [] => "No whirl of constant amplitude is found on a rim of many blades".to_string(),
+        spans => {
+            format!(
+                "On a rim of many blades whirl of constant amplitude lasts {}",
+                all_speeds(spans)
+            )
+        }
     };
     if !ranges.growths().is_empty() {
-        title += &format!("; a rub grows without bound {}", each(ranges.growths()));
+        title += &format!("; a rub grows without bound {}", all_speeds(ranges.growths()));
     }
-    title += &match window {
-        Some(window) => format!("; a lock holds {}", speeds_of(window)),
-        None => "; no lock holds at any speed".to_string(),
+    title += &match ranges.locks() {
+        [] => "; no lock holds at any speed".to_string(),
+        locks => format!("; a lock holds {}", all_speeds(locks)),
     };
     if !flutter.is_empty() {
-        title += &format!("; blades and casing in lasting contact flutter {}", each(flutter));
+        title += &format!("; blades and casing in lasting contact flutter {}", all_speeds(flutter));
     }
     title.push('.');
     if rows.iter().any(|row| row.state == Rubbing::None) {
-        title += FEW_SIDES;
+        title += UNSTEADY;
     }
     let fluttering: Vec<_> = flutter.iter().map(|range| [Some(range.from), range.to]).collect();
     sheet.fact("whirl_onset_rad_s", whirls.first().map(|span| span.from));
     sheet.fact("flutter_speed_rad_s", flutter.first().map(|range| range.from));
     sheet.fact("flutter_rad_s", fluttering);
     sheet.fact("flutter_undamped_rad_s", undamped_flutter_speed(machine, toward));
-    sheet.fact("lock_window_rad_s", window.map(|window| [Some(window.from), window.to]));
+    let lock = ranges.locks().first();
+    sheet.fact("lock_window_rad_s", lock.map(|window| [Some(window.from), window.to]));
     sheet.table("points", title, Table::of(rows, WHIRLS).shown(8));
     sheet.chart("push of all blades [N]", &[["push_n", "push"]]);
     sheet.chart("casing [m]", &[["casing_m", "casing"]]);
     Ok(())
 }
 
-/// Explanation of the state `none`.
-const FEW_SIDES: &str = " With few sides or little damping a rub may whirl or grow at speeds where \
-    this limit of many blades has none; a run shows it.";
+/// Explanation of the state `none`. A wave of constant amplitude can lose its stability to one whose
+/// amplitude swings, which no closed form describes.
+const UNSTEADY: &str = " Where none is found, a rub may still whirl with an amplitude that swings or, \
+    with few sides or little damping, whirl or grow; a run shows it.";
 
 /// What a large rub becomes at a rotor speed \[rad/s\], and the whirl that attracts, with its loads;
 /// `None` if none does.

@@ -86,12 +86,18 @@ fn note(here: &Evaluated<'_>, name: LimitName, value: f64) -> Option<String> {
     let fluttering = here.flutters();
     let begins = fluttering.iter().find(|flutter| flutter.from == value);
     if name == LimitName::FlutterSpeed {
-        let ends = begins?.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
-        return match ends {
+        let flutter = begins?;
+        let ends = flutter.to.map(|to| format!("up to {} rad/s", rounded(to, 6)));
+        let speeds = match ends {
             Some(ends) if value == 0.0 => Some(format!("from standstill {ends}")),
             None if value == 0.0 => Some("at every speed".to_string()),
             ends => ends,
         };
+        let outlasts = |lock: &LockWindow| !lock.without(flutter).eq([*lock]);
+        let held = here.ranges.locks().iter().any(outlasts);
+        let held = held.then(|| "the curvature of its pushes can keep a lock stable".to_string());
+        let words: Vec<String> = speeds.into_iter().chain(held).collect();
+        return (!words.is_empty()).then(|| words.join("; "));
     }
     if name == LimitName::LockEnds && begins.is_some() {
         return Some("above it the lock flutters".to_string());
@@ -131,17 +137,17 @@ fn why_none(here: &Evaluated<'_>, name: LimitName) -> String {
             _ if !of_speeds && machine.clearance() <= 0.0 => {
                 "all blades rub at this speed: nothing locks"
             }
+            (Some(_), LimitName::OmegaAdhesive) => "a lining cannot pull",
+            _ if machine.is_uneven() => {
+                "no formula is known for these tips and this casing; a run computes it"
+            }
             _ if machine.closing_speed().is_some() && hard.is_none() => {
                 "the clearance closes below every lock speed"
             }
-            (Some(_), LimitName::OmegaAdhesive) => "a lining cannot pull",
             (Some(_), _) if of_speeds && hard.is_some() => {
                 "the lining is too soft for two groups to hold a lock at any speed"
             }
             (Some(_), _) if hard.is_some() => "on this lining no two groups hold a lock; more may",
-            _ if machine.is_uneven() => {
-                "no formula is known for these tips and this casing; a run computes it"
-            }
             (None, LimitName::OmegaAdhesive) if machine.friction != 0.0 => {
                 "contact with friction cannot pull"
             }

@@ -98,7 +98,7 @@ fn sentence(app: &App, curves: &CoincidenceCurves) -> String {
             "κ = 0: tips do not move outward, so no coincidence drives them".into()
         }
         None if app.is_pressed() => "rest is stable at every speed shown".into(),
-        None => "no whirl lasts at any speed shown".into(),
+        None => "no steady whirl is found at the speeds shown".into(),
     };
     app.tuned_note().map_or(what.clone(), |note| format!("{what} ({note})"))
 }
