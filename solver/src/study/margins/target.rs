@@ -81,93 +81,75 @@ impl Target {
     pub fn solve(&self, scene: &CheckedScene, go_on: GoOn<'_>) -> Option<Found> {
         let Self { name, wanted, by } = *self;
         let from = by.real(scene);
-        let mut walk =
-            Walk { target: *self, scene, go_on, stopped: false, met: None, tried: [from; 2] };
-        let found = walk.bracket().and_then(|ends| walk.halve(ends));
-        let (to, reached) = found.unzip();
-        let Walk { met, tried, stopped, .. } = walk;
+        let (mut met, mut tried, mut stopped) = (None, [from; 2], false);
+        // How much the limit exceeds the wanted value at a value of the searched quantity.
+        let mut excess = |walked: f64| {
+            stopped |= !go_on();
+            if stopped {
+                return None;
+            }
+            let value = value_at(by, scene, walked);
+            let scene = changed(by, scene, value).and_then(|scene| scene.checked()).ok()?;
+            let limit = Evaluated::of(&scene).values(name).first().copied()?;
+            tried = [f64::min(tried[0], value), f64::max(tried[1], value)];
+            let [least, most] = met.unwrap_or([limit; 2]);
+            met = Some([f64::min(least, limit), f64::max(most, limit)]);
+            Some(limit - wanted)
+        };
+        let ends = bracket(walked(by).real(scene), largest(by), &mut excess);
+        let found = ends.and_then(|ends| halve(ends, &mut excess));
+        let [least, most] = met.unwrap_or_default();
+        let size = wanted.abs().max(least.abs()).max(most.abs());
+        let reached = found.filter(|(_, excess)| excess.abs() <= TARGET_REACHED * size);
+        let (to, reached) =
+            reached.map(|(at, excess)| (value_at(by, scene, at), wanted + excess)).unzip();
         (!stopped).then_some(Found { name, wanted, by: by.path, from, to, reached, met, tried })
     }
 }
 
-/// A search in progress.
-struct Walk<'a> {
-    target: Target,
-    scene: &'a CheckedScene,
-    go_on: GoOn<'a>,
-    /// Whether `go_on` has returned false.
-    stopped: bool,
-    /// As in [`Found`], up to now.
-    met: Option<[f64; 2]>,
-    tried: [f64; 2],
+/// Returns two neighbouring values of the searched quantity between which `excess` changes its sign,
+/// the nearest to the present value `from`, with magnitudes up to `largest`. `excess` is `None` where
+/// the scene is not allowed or has no such limit.
+fn bracket(
+    from: f64,
+    largest: f64,
+    excess: &mut impl FnMut(f64) -> Option<f64>,
+) -> Option<[f64; 2]> {
+    // If the present value is zero, the search goes only upward, from a value small enough for any
+    // unit.
+    let up_only = from == 0.0;
+    let (start, span) =
+        if up_only { (1.0 / TARGET_SPAN, TARGET_SPAN.powi(3)) } else { (from, TARGET_SPAN) };
+    let steps = (span.ln() / TARGET_FACTOR.ln()).ceil() as i32;
+    let first = excess(from).map(|excess| (from, excess > 0.0));
+    let mut ends = vec![(1, first), (-1, first)];
+    ends.truncate(if up_only { 1 } else { 2 });
+    for step in 1..=steps + 1 {
+        for (sign, before) in &mut ends {
+            // The last step downward goes to zero itself.
+            let value = match (*sign, step > steps) {
+                (-1, true) => 0.0,
+                (_, true) => continue,
+                _ => start * TARGET_FACTOR.powi(*sign * step),
+            };
+            let value = value.clamp(-largest, largest);
+            let now = excess(value).map(|excess| (value, excess > 0.0));
+            if let Some((before, now)) = before.zip(now)
+                && before.1 != now.1
+            {
+                return Some([before.0, now.0]);
+            }
+            *before = now;
+        }
+    }
+    None
 }
 
-impl Walk<'_> {
-    /// Returns the excess of the limit over the wanted value at a value of the searched quantity;
-    /// `None` without such a scene or limit, and once the search has stopped.
-    fn excess(&mut self, walked: f64) -> Option<f64> {
-        let Target { name, wanted, by } = self.target;
-        self.stopped |= !(self.go_on)();
-        if self.stopped {
-            return None;
-        }
-        let value = value_at(by, self.scene, walked);
-        let scene = changed(by, self.scene, value).and_then(|scene| scene.checked()).ok()?;
-        let limit = Evaluated::of(&scene).values(name).first().copied()?;
-        let [low, high] = self.tried;
-        self.tried = [low.min(value), high.max(value)];
-        let [least, most] = self.met.unwrap_or([limit; 2]);
-        self.met = Some([least.min(limit), most.max(limit)]);
-        Some(limit - wanted)
-    }
-
-    /// Returns two neighbouring values between which the limit passes the wanted one, the nearest
-    /// to the present value.
-    fn bracket(&mut self) -> Option<[f64; 2]> {
-        let by = self.target.by;
-        let from = walked(by).real(self.scene);
-        // If the present value is zero, the search goes only upward, from a value small enough for
-        // any unit.
-        let up_only = from == 0.0;
-        let (start, span) =
-            if up_only { (1.0 / TARGET_SPAN, TARGET_SPAN.powi(3)) } else { (from, TARGET_SPAN) };
-        let steps = (span.ln() / TARGET_FACTOR.ln()).ceil() as i32;
-        let first = self.excess(from).map(|excess| (from, excess > 0.0));
-        let mut ends = vec![(1, first), (-1, first)];
-        ends.truncate(if up_only { 1 } else { 2 });
-        for step in 1..=steps + 1 {
-            for (sign, before) in &mut ends {
-                // The last step downward goes to zero itself.
-                let value = match (*sign, step > steps) {
-                    (-1, true) => 0.0,
-                    (_, true) => continue,
-                    _ => start * TARGET_FACTOR.powi(*sign * step),
-                };
-                let value = value.clamp(-largest(by), largest(by));
-                let now = self.excess(value).map(|excess| (value, excess > 0.0));
-                if let Some((before, now)) = before.zip(now)
-                    && before.1 != now.1
-                {
-                    return Some([before.0, now.0]);
-                }
-                *before = now;
-            }
-        }
-        None
-    }
-
-    /// Bisects, and returns the parameter and the limit there, unless the limit jumps.
-    fn halve(&mut self, ends: [f64; 2]) -> Option<(f64, f64)> {
-        let above = self.excess(ends[1])? > 0.0;
-        let is_far = |at| self.excess(at).map(|excess| (excess > 0.0) == above).ok_or(());
-        let [low, high] = try_bisected(ends, 0.0, is_far).ok()?;
-        let both = [(low, self.excess(low)?), (high, self.excess(high)?)];
-        let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.abs().total_cmp(&b.1.abs());
-        let (at, excess) = both.into_iter().min_by(nearer)?;
-        let [least, most] = self.met.unwrap_or_default();
-        let size = self.target.wanted.abs().max(least.abs()).max(most.abs());
-        let reached = excess.abs() <= TARGET_REACHED * size;
-        let value = value_at(self.target.by, self.scene, at);
-        reached.then_some((value, self.target.wanted + excess))
-    }
+/// Bisects between two values, and returns the one with the smaller `excess`, and that.
+fn halve(ends: [f64; 2], excess: &mut impl FnMut(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let above = excess(ends[1])? > 0.0;
+    let is_far = |at| excess(at).map(|excess| (excess > 0.0) == above).ok_or(());
+    let [low, high] = try_bisected(ends, 0.0, is_far).ok()?;
+    let both = [(low, excess(low)?), (high, excess(high)?)];
+    both.into_iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
 }
