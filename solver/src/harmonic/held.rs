@@ -194,7 +194,7 @@ impl Held {
         let mut least = f64::INFINITY;
         for side in (first..polygon.sides).chain(0..first) {
             let (c, s) = polygon.direction(side);
-            let apothem = polygon.clearance * polygon.relative_apothem(side);
+            let apothem = machine.apothem(side);
             if apothem + x * c + y * s - nearer < least && !self.sides.contains(&side) {
                 let row = Row::new(&self.frame, (c, s), &self.at, 0.0);
                 least = least.min(apothem + row.opening);
@@ -330,7 +330,7 @@ impl Equations {
             frame,
             form,
             directions: corner.sides().map(|side| polygon.direction(side)),
-            apothems: corner.sides().map(|side| polygon.relative_apothem(side)),
+            apothems: corner.sides().map(|side| machine.apothem(side) / clearance),
             clearance,
             force,
             angle: bent * torque / stiffness.abs(),

@@ -129,11 +129,10 @@ impl Machine {
             spin: None,
             tips: None,
         };
-        machine.tips = Tips::new(disk, casing, &machine.polygon).map(Arc::new);
-        if machine.has_unequal_tips() {
-            let longer = (0..machine.polygon.sides).map(|side| machine.longest_of_side(side));
-            machine.polygon.longer = longer.collect();
-        }
+        let (tips, longer) = Tips::new(disk, casing, &machine.polygon);
+        machine.clearance -= longer;
+        machine.polygon.clearance = machine.clearance;
+        machine.tips = tips.map(Arc::new);
         machine.spin = Spin::new(disk, casing, &machine);
         machine
     }

@@ -23,8 +23,6 @@ pub struct ContactPolygon {
     pub clearance: f64,
     /// Half the angle between neighbouring sides, `delta = pi/N'` \[rad\].
     pub delta: f64,
-    /// Excess length of the longest tip of each side; empty for equal tips \[m\].
-    pub(super) longer: Vec<f64>,
     directions: Directions,
 }
 
@@ -94,7 +92,6 @@ impl ContactPolygon {
             blades_per_side,
             clearance,
             delta: PI / f64::from(sides),
-            longer: Vec::new(),
             directions: Directions::default(),
         }
     }
@@ -104,12 +101,6 @@ impl ContactPolygon {
     #[must_use]
     pub fn has_corners(&self) -> bool {
         self.sides >= 3
-    }
-
-    /// Returns the apothem of a side divided by the clearance; 1 for equal tips.
-    #[must_use]
-    pub fn relative_apothem(&self, side: u32) -> f64 {
-        self.longer.get(side as usize).map_or(1.0, |longer| 1.0 - longer / self.clearance)
     }
 
     /// Returns the distance from the middle of a side to its corner, `g0 tan delta` \[m\]; infinite

@@ -29,12 +29,17 @@ pub(crate) struct Tips {
 }
 
 impl Tips {
-    /// Creates the tips of a machine; `None` for equal tips in a round casing.
-    pub fn new(disk: &BladedDisk, casing: &Casing, polygon: &ContactPolygon) -> Option<Self> {
+    /// Creates the tips of a machine, `None` for equal tips in a round casing, and returns by how much
+    /// equal tips are longer, which leaves less clearance \[m\].
+    pub fn new(
+        disk: &BladedDisk,
+        casing: &Casing,
+        polygon: &ContactPolygon,
+    ) -> (Option<Self>, f64) {
         let numbers = [disk.tip_scatter_m, disk.longest_tip_m, disk.orbit_m, casing.out_of_round_m];
         let own = disk.tips_m.iter().any(|b| *b != 0.0);
         if !own && numbers.iter().all(|number| *number == 0.0) {
-            return None;
+            return (None, 0.0);
         }
         let drawn = match disk.tip_scatter_m {
             0.0 => Vec::new(),
@@ -42,7 +47,7 @@ impl Tips {
         };
         let mean = drawn.iter().sum::<f64>() / f64::from(disk.blades);
         let at = |list: &[f64], place: u32| list.get(place as usize).copied();
-        let longer: Vec<f64> = (0..disk.blades)
+        let mut longer: Vec<f64> = (0..disk.blades)
             .map(|place| {
                 let phi = TAU * f64::from(place) / f64::from(disk.blades);
                 let scatter = at(&drawn, place).map_or(0.0, |x| x - mean);
@@ -53,18 +58,25 @@ impl Tips {
                     + at(&disk.tips_m, place).unwrap_or(0.0)
             })
             .collect();
+        let first = longer.first().copied().unwrap_or(0.0);
+        // Without corners the casing can give way to equal tips beyond the clearance.
+        let is_common = polygon.has_corners() && longer.iter().all(|b| *b == first);
+        let common = if is_common { first } else { 0.0 };
+        longer.iter_mut().for_each(|b| *b -= common);
         let mut of_sides: Vec<Option<f64>> = vec![None; polygon.sides as usize];
         for (blade, b) in (1..).zip(&longer) {
             let longest = &mut of_sides[polygon.side_of_blade(blade) as usize];
             *longest = Some(longest.filter(|known| known >= b).unwrap_or(*b));
         }
-        Some(Self {
+        let is_uneven = casing.out_of_round_m != 0.0 || longer.iter().any(|b| *b != 0.0);
+        let tips = Self {
             longer,
             of_sides: of_sides.into_iter().flatten().collect(),
             lobes: casing.lobes,
             out_of_round: casing.out_of_round_m,
             angle: casing.out_of_round_angle_rad,
-        })
+        };
+        (is_uneven.then_some(tips), common)
     }
 
     /// Returns the excess length of a blade, numbered from 0 \[m\].

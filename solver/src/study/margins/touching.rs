@@ -83,8 +83,9 @@ fn starts_at_rest(scene: &Scene) -> bool {
     let mut scene = scene.as_reference();
     scene.solver.model = ModelSize::Rigid;
     scene.excitation = Excitation::default();
-    scene.machine().clearance() > 0.0
-        && !scene.is_uneven()
+    let machine = scene.machine();
+    machine.clearance() > 0.0
+        && !machine.is_uneven()
         && scene.initial == Initial::default()
         && scene.checked().is_ok()
 }
