@@ -50,8 +50,10 @@ fn no_output_has_a_character_of_a_name_that_a_terminal_would_obey() {
     let new = format!("{new} --casing 5:420.3:2.9 --disk 5:155.9Hz:5.4kg");
     let map = "--speed 400:500:2 --pulse 1e4:2e4:2 --end 1e-5 --no-sensitivity";
     let mut typed = String::from("scene\n");
+    let mut scene = Scene::base();
+    scene.solver.end_s = 1e-5;
     for (place, name) in names.iter().enumerate() {
-        std::fs::write(written(name), Scene::base().to_toml()).unwrap();
+        std::fs::write(written(name), scene.to_toml()).unwrap();
         for line in ["open", "scene", "save", "export"] {
             typed.push_str(&format!("{line} {name}.toml\n"));
         }

@@ -78,7 +78,7 @@ proptest! {
         let compliance = |omega: f64| frame.turning(omega - frame.casing.turn).compliance();
         let found = round_whirls(&machine, speed);
         let reach = 8.0 * (machine.omega_c + frame.casing.turn);
-        let count = 100_000;
+        let count = 50_000;
         let mut seen = Vec::new();
         let mut last = compliance(-reach);
         for step in 1..=count {

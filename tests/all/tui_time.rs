@@ -25,7 +25,7 @@ fn the_instant_and_the_end_are_said_at_every_size() {
     for name in ["paper-nd3", "run-down", "coincidence", "oval"] {
         for (width, height) in [(40, 12), (60, 18), (80, 24), (200, 50)] {
             let mut short = scene(name);
-            (short.solver.end_s, short.view.begin_s) = (0.05, 0.0);
+            (short.solver.end_s, short.view.begin_s) = (0.01, 0.0);
             let mut session = Session::open(width, height, short, Theme::Mono, Marker::Braille);
             for key in ["U", "\n-12000\n", "U"] {
                 let line = row(&session, 1);
