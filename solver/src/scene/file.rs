@@ -84,7 +84,7 @@ impl Scene {
                     read(&mut scene, &format!("{name}.{leaf}"), value)?;
                 }
                 let of_table = |key: &Key| key.path.split_once('.').is_some_and(|of| of.0 == name);
-                if inner.is_empty() && !keys::KEYS.iter().any(of_table) {
+                if !keys::KEYS.iter().any(of_table) {
                     return Err(keys::unknown(name));
                 }
             } else {
