@@ -226,10 +226,3 @@ fn figure_8_has_a_verdict_for_every_cell() {
         assert_eq!([0.98, 1.02].map(held), [false, true], "{speed}");
     }
 }
-
-#[test]
-fn every_figure_has_a_scene_and_its_number() {
-    assert_eq!(Which::of_paper().len(), 7);
-    assert!(Which::of_paper().into_iter().all(|which| which.scene().is_ok()));
-    assert!(drawn(9).title.starts_with("Figure 9. ") && drawn(10).caption.len() == 3);
-}
