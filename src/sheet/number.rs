@@ -183,7 +183,7 @@ pub fn trimmed(digits: &str) -> &str {
 }
 
 /// An SI prefix, or a change of unit, for one number or a whole axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SiScale {
     /// Size of the shown unit in the base unit, such as 1e3 for `k`. The shown number is the value
     /// divided by it.
@@ -230,15 +230,14 @@ impl SiScale {
         Self { factor: 1.0, prefix: "" }
     }
 
-    /// Formats a tick label with as many decimals as the tick spacing `step` needs.
+    /// Formats a tick label with as many decimals as the tick spacing `step` needs, or with a power
+    /// of ten if it needs more than nine.
     pub fn label(&self, value: f64, step: f64) -> String {
-        let shown = step / self.factor;
-        let decimals = if shown > 0.0 && shown.is_finite() {
-            (-shown.log10() - 1e-9).ceil().clamp(0.0, 9.0) as usize
-        } else {
-            0
-        };
-        format!("{:.decimals$}", value / self.factor)
+        let (shown, step) = (value / self.factor, step / self.factor);
+        match (-step.log10() - 1e-9).ceil() {
+            decimals if decimals > 9.0 => short(shown),
+            decimals => format!("{shown:.*}", decimals.max(0.0) as usize),
+        }
     }
 }
 

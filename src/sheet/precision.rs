@@ -136,15 +136,6 @@ pub fn place(row: &Row) -> Option<(f64, f64)> {
     row.error_final.filter(|_| row.wall_s > 0.0).map(|error| (row.wall_s, error))
 }
 
-/// Returns the two whole exponents, at least 1 apart, that enclose some exponents of ten; `None` if
-/// there are none.
-pub fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    (low <= high).then(|| (low.floor(), high.ceil().max(low.floor() + 1.0)))
-}
-
 /// Returns the figure: error at the end against wall time, both on logarithmic axes; `None` if no
 /// row has an error above 0.
 pub fn figure(report: &Precision) -> Option<Figure> {

@@ -211,22 +211,6 @@ impl<'a> Table<'a> {
         Self { room, ..self }
     }
 
-    /// Replaces the headings and all text of the cells by what `spell` makes of them, for example
-    /// in ASCII. The notes stay.
-    pub fn spelled(self, spell: impl Fn(&str) -> String + 'a) -> Self {
-        let Self { mut headings, count, row, notes, room } = self;
-        for words in headings.iter_mut().filter_map(|heading| heading.words.as_mut()) {
-            *words = spell(words).into();
-        }
-        let spelled = move |cell| match cell {
-            TableCell::Told(x, text) => TableCell::Told(x, spell(&text)),
-            TableCell::Word(text) => TableCell::Word(spell(&text)),
-            other => other,
-        };
-        let row = Box::new(move |place| row(place).into_iter().map(&spelled).collect());
-        Self { headings, count, row, notes, room }
-    }
-
     /// Adds a note below the rows.
     pub fn note(&mut self, note: impl Into<String>) {
         self.notes.push(note.into());
@@ -267,22 +251,28 @@ impl<'a> Table<'a> {
         self.rows().map(|row| (number(&row, places[0]), number(&row, places[1]))).collect()
     }
 
-    /// Returns the headings and then the rows as cells padded to the width of their column. The
-    /// columns on the right that do not fit into `room` characters, with `apart` spaces between
-    /// columns, are left out.
-    pub fn lines(&self, room: usize, apart: usize) -> Vec<Vec<String>> {
+    /// Returns the headings and then the rows as cells padded to the width of their column, with
+    /// their text as `spell` writes it, for example in ASCII. The columns on the right that do not
+    /// fit into `room` characters, with `apart` spaces between columns, are left out.
+    pub fn lines(
+        &self,
+        room: usize,
+        apart: usize,
+        spell: impl Fn(&str) -> String,
+    ) -> Vec<Vec<String>> {
         let headings = self.headings.iter().enumerate();
         let shown: Vec<(usize, &Heading)> =
             headings.filter(|(_, heading)| heading.words.is_some()).collect();
         let words = shown.iter().filter_map(|(_, heading)| heading.words.as_deref());
-        let mut lines: Vec<Vec<String>> = vec![words.map(String::from).collect()];
+        let mut lines: Vec<Vec<String>> = vec![words.map(&spell).collect()];
         // Words are aligned to the left.
         let mut left = vec![false; shown.len()];
         for row in self.rows() {
             for (left, (place, _)) in left.iter_mut().zip(&shown) {
                 *left |= matches!(row[*place], TableCell::Word(_) | TableCell::Flag(_));
             }
-            lines.push(shown.iter().map(|(place, heading)| heading.text(&row[*place])).collect());
+            let text = |(place, heading): &(usize, &Heading)| spell(&heading.text(&row[*place]));
+            lines.push(shown.iter().map(text).collect());
         }
         let mut used = 0;
         for (column, left) in left.into_iter().enumerate() {
@@ -324,7 +314,7 @@ impl<'a> Table<'a> {
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
         if !self.headings.is_empty() {
             let apart = " ".repeat(APART);
-            for line in self.lines(self.room, APART) {
+            for line in self.lines(self.room, APART, str::to_string) {
                 writeln!(out, "{}", line.join(&apart).trim_end())?;
             }
         }
@@ -370,6 +360,6 @@ mod tests {
         assert_eq!(serde_json::to_string(&table).unwrap(), json);
         let text = "value\n  1.2  wrong\n 2 kN  -\none note\n";
         assert_eq!(String::from_utf8(lines).unwrap(), text);
-        assert_eq!(table.lines(7, 2)[1], ["  1.2"]);
+        assert_eq!(table.lines(7, 2, str::to_string)[1], ["  1.2"]);
     }
 }

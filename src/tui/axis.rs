@@ -5,8 +5,9 @@ pub use crate::sheet::number::SiScale;
 use crate::sheet::number::{in_shown_unit, in_tenths, per_frequency, per_speed, trimmed};
 pub use crate::sheet::ticks::{nice_step, ticks, whole_ticks};
 
-/// The axis of a chart: its range and the prefix of its labels.
-#[derive(Clone, Copy, Debug)]
+/// The axis of a chart: its range and the prefix of its labels. The default has no range, so that
+/// nothing is drawn on it.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct ChartAxis {
     /// Lower end, in SI units or as an exponent of ten.
     pub low: f64,
@@ -19,9 +20,10 @@ pub struct ChartAxis {
 }
 
 /// What the values of an axis are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Kind {
     /// Numbers in the prefix of the axis.
+    #[default]
     Plain,
     /// Whole numbers: no others have ticks.
     Whole,

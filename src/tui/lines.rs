@@ -171,7 +171,7 @@ impl Lines {
                 let mut lines: Vec<String> = doubt.iter().map(|doubt| self.done(doubt)).collect();
                 if let Some(view) = self.printed_view {
                     self.app.status = None;
-                    let rows = view.panel().text(&self.app);
+                    let rows = self.app.panel_of(view).text(&self.app);
                     lines.extend(rows.lines().map(|row| self.shown(row)));
                 } else {
                     lines.extend(self.changed(&before));

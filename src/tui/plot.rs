@@ -4,7 +4,7 @@
 use ratatui::{
     buffer::Buffer,
     layout::{Position, Rect},
-    style::Style,
+    style::{Color, Style},
 };
 
 use super::appearance::Appearance;
@@ -330,6 +330,12 @@ impl<'a> Plot<'a> {
         if let Some(cell) = self.buffer.cell_mut(Position::new(x, y)) {
             cell.set_char(sign).set_style(style);
         }
+    }
+
+    /// Returns the background colour of a cell of the screen; `None` if it is that of the terminal.
+    pub fn ground(&self, x: u16, y: u16) -> Option<Color> {
+        let cell = self.buffer.cell(Position::new(x, y))?;
+        Some(cell.bg).filter(|colour| *colour != Color::Reset)
     }
 
     /// Prints a text at a position; what does not fit is cut off.

@@ -42,12 +42,8 @@ pub enum Marker {
 impl Marker {
     /// Returns the next marker, after the last one the first.
     pub fn next(self) -> Self {
-        match self {
-            Self::Braille => Self::HalfBlock,
-            Self::HalfBlock => Self::Dot,
-            Self::Dot => Self::Ascii,
-            Self::Ascii => Self::Braille,
-        }
+        const ALL: [Marker; 4] = [Marker::Braille, Marker::HalfBlock, Marker::Dot, Marker::Ascii];
+        ALL[(self as usize + 1) % ALL.len()]
     }
 
     /// Returns the number of sub-pixels in a cell, horizontally and vertically.

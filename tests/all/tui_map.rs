@@ -73,11 +73,11 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         assert!(session.app.reading.on, "the arrows go to the cell at once");
         let plan = shown_plan(&session);
         // It begins at the present knobs, and every arrow is one cell.
-        let [column, row] = session.app.map_cell().unwrap();
+        let [column, row] = session.app.order().cell.unwrap();
         assert!((plan.x.value(column) - 500.0).abs() < 4.0, "{column}");
         assert!((plan.y.value(row) / 1e6 - 1.0).abs() < 0.1, "{row}");
         session.press("←←←←←←↑↑");
-        let cell = session.app.map_cell().unwrap();
+        let cell = session.app.order().cell.unwrap();
         assert_eq!(cell, [column - 6, row + 2]);
         let text = session.text();
         let run = session.app.run.latest.results.found.cell.clone().unwrap();
@@ -85,7 +85,7 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         assert!(text.contains("this cell:") && text.contains("440 rad/s, 1.585 MN"), "{text}");
         assert!(text.contains("locked") && text.contains("since"), "{text}");
         session.press("←←←←←←←");
-        let [column, row] = session.app.map_cell().unwrap();
+        let [column, row] = session.app.order().cell.unwrap();
         session.press("\n");
         let scene = session.app.scene.clone();
         assert_eq!(scene.operation.speed_rad_s, plan.x.value(column));
@@ -129,7 +129,7 @@ fn any_two_knobs_are_on_the_axes_and_in_the_file() {
     let plan = shown_plan(&session);
     assert_eq!((plan.x.path.as_str(), plan.x.count), ("operation.nodal_diameters", 11));
     // The cursor is at the present knobs of the new map: n_d = 3.
-    assert_eq!(session.app.map_cell().unwrap()[0], 2);
+    assert_eq!(session.app.order().cell.unwrap()[0], 2);
     assert!(session.text().contains("now n_d 3, 50 kN"), "{}", session.text());
     let text = session.text();
     assert!(text.contains("pulse F over diameters n_d"), "{text}");

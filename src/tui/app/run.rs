@@ -114,7 +114,7 @@ impl App {
             cursor_s: self.reading.at_s,
             open: ViewId::all().filter(|view| self.is_open(*view)).collect(),
             map: self.map_choice(),
-            cell: self.map_cell(),
+            cell: self.cell_in(ViewId::Map),
             range: self.layout.range,
         }
     }

@@ -78,7 +78,7 @@ fn main_screen(app: &App, buffer: &mut Buffer, places: &Places) {
         if !at.large {
             app.note(*area, Command::View(*view));
         }
-        view.panel().draw(app, buffer, at);
+        app.panel_of(*view).draw(app, buffer, at);
     }
     if let Some(area) = places.ends {
         ends::draw(app, buffer, area);

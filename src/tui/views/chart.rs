@@ -1,7 +1,7 @@
-//! The drawer of charts: lines, curves and signs over two axes, in the same order in every view.
+//! The drawer of charts: a title row with the legend, lines of text, and below them lines, curves
+//! and signs over two axes, in the same order in every view.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use crate::tui::app::App;
@@ -11,11 +11,21 @@ use crate::tui::history::Span;
 use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
-use crate::tui::views::panel::{ViewArea, dots, entry};
+use crate::tui::views::panel::{Lines, ViewArea, dots, entry, lines_above, title};
 use rubscope_solver::study::figures::{Panel, Series, Style as Stroke};
 
 /// A chart; what is drawn later covers what is drawn before it.
+#[derive(Default)]
 pub struct Chart<'a> {
+    pub name: &'a str,
+    pub legend: Vec<(String, Style)>,
+    /// Values at the cursor. They stand in front of the legend, instead of the name, which may
+    /// leave them no room.
+    pub reading: Option<String>,
+    /// Lines of text above the chart.
+    pub lines: Lines,
+    /// Whether the axes are left out.
+    pub bare: bool,
     pub x: ChartAxis,
     pub y: ChartAxis,
     /// Horizontal lines with their labels, which may be empty; one of [`Role::Text`] is solid.
@@ -46,22 +56,22 @@ type Points<'a> = Box<dyn Iterator<Item = (f64, f64)> + 'a>;
 
 impl<'a> Chart<'a> {
     /// Creates a chart without content.
-    pub fn new(x: ChartAxis, y: ChartAxis) -> Self {
-        let (levels, curves, points) = (Vec::new(), Vec::new(), Vec::new());
-        Self { x, y, levels, marks: &[], now: None, read: None, curves, points }
+    pub fn new(name: &'a str, x: ChartAxis, y: ChartAxis) -> Self {
+        Self { name, x, y, ..Self::default() }
     }
 
     /// Draws the chart; `None` if there is no room.
-    pub fn draw<'b>(
-        self,
-        app: &App,
-        buffer: &'b mut Buffer,
-        at: ViewArea,
-        inside: Rect,
-    ) -> Option<Plot<'b>> {
+    pub fn draw<'b>(mut self, app: &App, buffer: &'b mut Buffer, at: ViewArea) -> Option<Plot<'b>> {
         let look = &app.appearance;
         let [quiet, focus] = [Role::Quiet, Role::Focus].map(|role| look.style(role));
-        let mut plot = Plot::new(buffer, inside, self.x, self.y, look)?;
+        if let Some(reading) = self.reading {
+            self.name = "";
+            self.legend.insert(0, (reading, focus));
+        }
+        let inside = title(app, buffer, at, self.name, &self.legend);
+        let inside = lines_above(app, buffer, inside, &self.lines);
+        let plot = if self.bare { Plot::bare } else { Plot::new };
+        let mut plot = plot(buffer, inside, self.x, self.y, look)?;
         at.note(app, plot.inner);
         for (level, _, role) in &self.levels {
             let sign = if *role == Role::Text { ['━', '='] } else { ['┈', '.'] };

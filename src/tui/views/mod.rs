@@ -17,6 +17,7 @@ mod table;
 pub use panel::{ViewArea, ViewPanel};
 
 use super::app::App;
+use super::app::reading::cell_of;
 use super::command::Command;
 pub use id::ViewId;
 use rubscope_solver::scene::keys::CHARTS;
@@ -34,17 +35,25 @@ const VIEWS: [(ViewId, &dyn ViewPanel); CHARTS.len()] = [
     (ViewId::Coincidence, &steady::coincidence::CoincidenceView),
 ];
 
-impl ViewId {
-    /// Returns the implementation of the view.
-    pub fn panel(self) -> &'static dyn ViewPanel {
-        VIEWS[self as usize].1
-    }
-}
-
 impl App {
+    /// Returns the implementation of a view.
+    pub fn panel_of(&self, view: ViewId) -> &'static dyn ViewPanel {
+        match view {
+            ViewId::Margins if self.layout.survey => &margins::SurveyView,
+            view => VIEWS[view as usize].1,
+        }
+    }
+
     /// Returns the implementation of the large view.
     pub fn panel(&self) -> &'static dyn ViewPanel {
-        self.view().panel()
+        self.panel_of(self.view())
+    }
+
+    /// Returns column and row of the cell under the cursor, both from 0, row 0 at the bottom.
+    /// `None` without cells, and if the cursor is not in the view.
+    pub fn cell_in(&self, view: ViewId) -> Option<[u32; 2]> {
+        let (cursor, [across, up]) = (self.cursor_in(view)?, self.panel_of(view).grid(self));
+        (across > 0).then(|| [cell_of(cursor.across, across), cell_of(cursor.up, up)])
     }
 
     /// Returns the command of Enter at the cursor; `None` without a cursor, and if the large view

@@ -11,7 +11,7 @@ use crate::tui::app::{App, Cursor, Parts};
 use crate::tui::appearance::Appearance;
 use crate::tui::command::Command;
 use crate::tui::raster::Pen;
-use crate::tui::text::{columns, pieces, print};
+use crate::tui::text::{columns, pieces, print, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 
@@ -107,6 +107,12 @@ impl ViewArea {
         (first, Some(second))
     }
 
+    /// Returns the area below the title row and some lines of text.
+    pub fn below(self, lines: usize) -> Rect {
+        let rows = u16::try_from(1 + lines).unwrap_or(u16::MAX).min(self.area.height);
+        Rect { y: self.area.y + rows, height: self.area.height - rows, ..self.area }
+    }
+
     /// Extends a chart by a row if the area `lower`, with a chart over the same x values, is below it:
     /// the title of that chart covers the labels of this axis, so that both share those of the lower one.
     pub fn above(mut self, lower: Rect) -> Self {
@@ -119,19 +125,6 @@ impl ViewArea {
         let halves = [Constraint::Percentage(50), Constraint::Percentage(50)];
         Layout::horizontal(halves).spacing(1).areas(self.area).map(|area| Self { area, ..self })
     }
-}
-
-/// Puts the values at the cursor in front of the legend, instead of the chart's name, which may
-/// leave them no room. Returns the name to print.
-pub fn read_before<'a>(
-    look: &Appearance,
-    legend: &mut Vec<(String, Style)>,
-    read: Option<String>,
-    name: &'a str,
-) -> &'a str {
-    let Some(read) = read else { return name };
-    legend.insert(0, (read, look.style(Role::Focus)));
-    ""
 }
 
 /// Draws the title row: a rule with digit, name, and the first legend entries that fit as a whole.
@@ -166,7 +159,7 @@ pub fn title(
     };
     let parts: Vec<_> = parts.into_iter().filter(|part| fits(part)).collect();
     pieces(buffer, inside, 0, &parts);
-    Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area }
+    at.below(0)
 }
 
 /// Returns the progress of the view's study; `None` if it is not running for long, and for the map,
@@ -178,6 +171,15 @@ fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
         None => format!("computing {} s", known.seconds),
     };
     (known.view != ViewId::Map).then(|| (text, app.appearance.style(Role::Focus)))
+}
+
+/// Returns a cursor in the middle of a cell of a chart; of the last one if there are not so many.
+pub fn cursor_at(cell: [u32; 2], grid: [u32; 2]) -> Cursor {
+    let [across, up] = [0, 1].map(|axis| {
+        let count = grid[axis].max(1);
+        (f64::from(cell[axis].min(count - 1)) + 0.5) / f64::from(count)
+    });
+    Cursor { across, up }
 }
 
 /// Returns a legend entry: a stretch of the line and its label.
@@ -195,28 +197,44 @@ pub fn dots(look: &Appearance, name: &str) -> (String, Style) {
     (format!("{} {name}", look.either("· ·", ". .")), look.style(Role::Quiet))
 }
 
+/// Lines of text, spelled as the screen can show them, with their roles.
+pub type Lines = Vec<(String, Role)>;
+
+/// Wraps a text to the width of an area.
+pub fn paragraph(app: &App, text: &str, area: Rect, role: Role) -> Lines {
+    let width = usize::from(area.width.saturating_sub(1));
+    wrap(&app.appearance.spell(text), width).into_iter().map(|line| (line, role)).collect()
+}
+
 /// Prints lines above a chart; returns the rest of the area.
-pub fn lines_above(
-    app: &App,
-    buffer: &mut Buffer,
-    inside: Rect,
-    lines: &[String],
-    role: Role,
-) -> Rect {
+pub fn lines_above(app: &App, buffer: &mut Buffer, inside: Rect, lines: &Lines) -> Rect {
     let rows = u16::try_from(lines.len()).unwrap_or(u16::MAX).min(inside.height);
     let area = Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside };
-    for (row, line) in (0..rows).zip(lines) {
-        print(buffer, area, row, line, app.appearance.style(role));
+    for (row, (line, role)) in (0..rows).zip(lines) {
+        print(buffer, area, row, line, app.appearance.style(*role));
     }
     Rect { y: inside.y + rows, height: inside.height - rows, ..inside }
 }
 
-/// Prints that the study of a view is not computed yet; studies follow the run.
-pub fn not_yet(app: &App, buffer: &mut Buffer, inside: Rect) {
-    let quiet = app.appearance.style(Role::Quiet);
+/// Draws the title row of a view that has nothing to show, and why below an empty row.
+pub fn message(
+    app: &App,
+    buffer: &mut Buffer,
+    at: ViewArea,
+    (name, legend): (&str, &[(String, Style)]),
+    (text, role): (&str, Role),
+) {
+    let inside = title(app, buffer, at, name, legend);
+    let mut lines = paragraph(app, text, inside, role);
+    lines.insert(0, (String::new(), role));
+    lines_above(app, buffer, inside, &lines);
+}
+
+/// Says why the study of a view has no result yet; studies follow the run.
+pub fn not_yet(app: &App) -> (&'static str, Role) {
     let text = match app.full_run() {
         Some(_) => "computing ...",
         None => "waiting for the verdict of the run",
     };
-    print(buffer, inside, 1, text, quiet);
+    (text, Role::Quiet)
 }

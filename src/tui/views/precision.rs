@@ -2,17 +2,16 @@
 //! `rubscope precision`.
 
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
 
 use super::ViewId;
 use super::chart::Chart;
-use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, message, not_yet, paragraph};
 use crate::sheet::Sheet;
 use crate::sheet::number::count;
-use crate::sheet::precision::{decades, letter, place, reference_words, series, sheet};
+use crate::sheet::precision::{letter, place, reference_words, series, sheet};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
-use crate::tui::text::{print, wrap};
+use crate::tui::text::print;
 use crate::tui::theme::Role;
 use rubscope_solver::scene::SolverKind;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, Row, Way};
@@ -28,52 +27,37 @@ impl ViewPanel for PrecisionView {
             SolverKind::Event => Role::First,
             SolverKind::Explicit => Role::Second,
         };
-        let axes = [("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
-        let inside = title(app, buffer, at, "precision", &axes);
+        let axes = vec![("error |u-u_ref|/g0 by wall time [s]".to_string(), quiet)];
         if let Err(error) = Measure::check(&app.scene, Effort::QUICK) {
-            print(buffer, inside, 1, "no reference for this scene:", look.style(Role::Trouble));
-            print(buffer, inside, 2, &error.to_string(), quiet);
-            return;
+            let why = format!("no reference for this scene: {error}");
+            return message(app, buffer, at, ("precision", &axes), (&why, Role::Trouble));
         }
         let Some(report) = &app.results().found.precision else {
-            return not_yet(app, buffer, inside);
+            return message(app, buffer, at, ("precision", &axes), not_yet(app));
         };
-        let above = |buffer: &mut Buffer, inside: Rect, text: &str, role| {
-            let lines = wrap(&look.spell(text), usize::from(inside.width).saturating_sub(1));
-            lines_above(app, buffer, inside, &lines, role)
-        };
-        let (note, role) = note(report);
-        let mut inside = above(buffer, inside, &note, role);
         // A logarithmic axis has no zero, and no position for a run without an error.
         let placed = report.rows.iter().filter_map(|row| Some((place(row)?, row)));
         let points = placed.filter(|((_, error), _)| *error > 0.0);
         let points: Vec<_> =
             points.map(|((time, error), row)| ((time.log10(), error.log10()), row)).collect();
-        let off = report.rows.len() - points.len();
-        let height = inside.height.saturating_sub(u16::from(off > 0));
-        if off > 0 {
-            let text = format!("{} off this axis: error 0 or none", count(off as u64, "row"));
-            print(buffer, inside, height, &text, quiet);
-        }
-        inside.height = height;
+        let (x, y) =
+            (decades(points.iter().map(|at| at.0.0)), decades(points.iter().map(|at| at.0.1)));
+        let mut chart = Chart { legend: axes, ..Chart::new("precision", x, y) };
+        let told = |text: &str, role| paragraph(app, text, at.area, role);
+        let (note, role) = note(report);
+        chart.lines = told(&note, role);
         if at.large {
-            let legend = legend(points.iter().map(|(_, row)| *row));
-            inside = above(buffer, inside, &legend, Role::Quiet);
+            chart.lines.extend(told(&legend(points.iter().map(|(_, row)| *row)), Role::Quiet));
         }
-        let times = decades(points.iter().map(|((x, _), _)| *x));
-        let errors = decades(points.iter().map(|((_, y), _)| *y));
-        let (Some((left, right)), Some((bottom, top))) = (times, errors) else { return };
-        let (x, y) = (ChartAxis::powers(left, right, None), ChartAxis::powers(bottom, top, None));
-        let mut chart = Chart::new(x, y);
         let cursor = app.cursor_in(ViewId::Precision).filter(|_| at.large);
         if let Some(cursor) = cursor.map(|at| (x.at(at.across), y.at(at.up))) {
             chart.points.push((cursor.0, cursor.1, '+', look.style(Role::Focus)));
             // Distances are relative to the lengths of the axes.
-            let [wide, high] = [right - left, top - bottom];
+            let [wide, high] = [x, y].map(|axis| axis.high - axis.low);
             let far = |(x, y): (f64, f64)| ((x - cursor.0) / wide).hypot((y - cursor.1) / high);
             let nearest = points.iter().min_by(|a, b| far(a.0).total_cmp(&far(b.0)));
             if let Some((_, row)) = nearest {
-                inside = above(buffer, inside, &told(row), Role::Focus);
+                chart.lines.extend(told(&described(row), Role::Focus));
             }
         }
         chart.points.extend(points.iter().map(|((x, y), row)| {
@@ -83,12 +67,26 @@ impl ViewPanel for PrecisionView {
             };
             (*x, *y, sign, look.style(role))
         }));
-        chart.draw(app, buffer, at, inside);
+        let (off, mut above) = (report.rows.len() - points.len(), at);
+        if off > 0 {
+            above.area.height = at.area.height.saturating_sub(1);
+            let text = format!("{} off this axis: error 0 or none", count(off as u64, "row"));
+            print(buffer, at.area, above.area.height, &text, quiet);
+        }
+        chart.draw(app, buffer, above);
     }
 
     fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
         Some(sheet(app.results().found.precision.as_ref()?, app.view_command()))
     }
+}
+
+/// Returns an axis from one whole power of ten to another, at least a decade, that encloses some
+/// exponents; without any it is not sound, and nothing is drawn.
+fn decades(exponents: impl Iterator<Item = f64>) -> ChartAxis {
+    let (low, high) = exponents
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    ChartAxis::powers(low.floor(), high.ceil().max(low.floor() + 1.0), None)
 }
 
 /// Describes the reference and the number of runs with another verdict, with the role of the text.
@@ -121,7 +119,7 @@ fn legend<'a>(rows: impl Iterator<Item = &'a Row>) -> String {
 }
 
 /// Describes a row: solver, step, error and time.
-fn told(row: &Row) -> String {
+fn described(row: &Row) -> String {
     let step = row.way.step_s.map_or(String::new(), |step| format!(", h {}", readable(step, "s")));
     let error = row.error_final.map_or("-".to_string(), |error| format!("{error:.2e}"));
     let (letter, series) = (letter(&row.way), series(&row.way));

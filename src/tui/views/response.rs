@@ -1,10 +1,10 @@
 //! View 1: the casing coordinates over a page of time; the blade coordinates below, if it has the
 //! full screen; and the run under the other contact law or a pinned run, for comparison.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::buffer::Buffer;
 
 use super::chart::{Chart, Curve};
-use super::panel::{ViewArea, ViewPanel, dots, entry, lines_above, read_before, title};
+use super::panel::{Lines, ViewArea, ViewPanel, dots, entry, message, paragraph};
 use crate::sheet::Sheet;
 use crate::sheet::line::clean;
 use crate::sheet::table::{Table, TableCell};
@@ -16,7 +16,7 @@ use crate::tui::film::other_law;
 use crate::tui::history::{self, Bin, Channel};
 use crate::tui::plot::{Plot, contact};
 use crate::tui::raster::Pen;
-use crate::tui::text::{columns, wrap};
+use crate::tui::text::columns;
 use crate::tui::theme::Role;
 use crate::tui::trace::Happening;
 use rubscope_solver::motion::ActiveSet;
@@ -172,19 +172,11 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
     };
     if let Err(why) = other_law(&app.scene) {
         page(app, buffer, first, &own);
-        return refused(app, buffer, second, &theirs.name, &clean(&why.to_string()));
+        let why = clean(&why.to_string());
+        return message(app, buffer, second, (&theirs.name, &[]), (&why, Role::Trouble));
     }
     page(app, buffer, first.above(second.area), &own);
     page(app, buffer, second, &theirs);
-}
-
-/// Prints why the scene does not allow the other law.
-fn refused(app: &App, buffer: &mut Buffer, at: ViewArea, name: &str, why: &str) {
-    let look = &app.appearance;
-    let inside = title(app, buffer, at, name, &[]);
-    let mut lines = wrap(&look.spell(why), usize::from(inside.width).saturating_sub(1));
-    lines.insert(0, String::new());
-    lines_above(app, buffer, inside, &lines, Role::Trouble);
 }
 
 fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
@@ -192,29 +184,29 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
     let (from, to) = app.page();
     let (x, y) = (ChartAxis::scaled(from, to), ChartAxis::scaled(what.range.low, what.range.high));
     let pens = [look.first(), look.second()];
-    let quiet = look.style(Role::Quiet);
     let mark = contact(look);
-    let mut legend: Vec<_> =
-        pens.iter().zip(what.names).map(|(pen, name)| entry(look, pen, name)).collect();
+    let lines = if what.own { failed(app, at) } else { Lines::new() };
+    let mut chart = Chart::new(&what.name, x, y.evened(at.below(lines.len()), look));
+    chart.lines = lines;
     // Of two laws each keeps its name.
-    let kept = if app.run.compare { what.name.as_str() } else { "" };
-    let read = reading(app, what, usize::from(at.area.width).saturating_sub(columns(kept)));
-    let name = match read_before(look, &mut legend, read, &what.name) {
-        "" => kept,
-        name => name,
-    };
-    legend.push((format!("{}{} by {}s", y.scale.prefix, what.unit, x.scale.prefix), quiet));
+    let kept = if app.run.compare { columns(&what.name) } else { 0 };
+    let read = reading(app, what, usize::from(at.area.width).saturating_sub(kept));
+    match read {
+        Some(read) if app.run.compare => chart.legend.push((read, look.style(Role::Focus))),
+        read => chart.reading = read,
+    }
+    let names = pens.iter().zip(what.names);
+    chart.legend.extend(names.map(|(pen, name)| entry(look, pen, name)));
+    let unit = format!("{}{} by {}s", y.scale.prefix, what.unit, x.scale.prefix);
+    chart.legend.push((unit, look.style(Role::Quiet)));
     if let Some(baseline) = app.run.baseline.as_ref().filter(|_| what.own) {
         let name = format!("{} pinned: {}", what.names[0], baseline.what(app));
-        legend.push(entry(look, &pinned(look), &name));
+        chart.legend.push(entry(look, &pinned(look), &name));
     }
     if what.forecast.is_some() {
-        legend.push(dots(look, "to come"));
+        chart.legend.push(dots(look, "to come"));
     }
-    legend.push((format!("{mark} contact"), look.style(Role::Contact)));
-    let inside = title(app, buffer, at, name, &legend);
-    let inside = if what.own { failed(app, buffer, inside) } else { inside };
-    let mut chart = Chart::new(x, y.evened(inside, look));
+    chart.legend.push((format!("{mark} contact"), look.style(Role::Contact)));
     chart.levels = vec![(0.0, "", Role::Quiet)];
     chart.levels.extend(clearance_levels(app, what));
     chart.read = app.reading.at_s;
@@ -229,7 +221,7 @@ fn page(app: &App, buffer: &mut Buffer, at: ViewArea, what: &Page) {
         let record = app.recorded(app.results().pinned_page.as_deref());
         chart.curves.push((pinned(look), spans(record, what.channels[0])));
     }
-    let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
+    let Some(mut plot) = chart.draw(app, buffer, at) else { return };
     let cells = usize::from(plot.inner.width);
     // Contact marks go on the time axis if there is one, so that they cover no data.
     let row = plot.axis_row().unwrap_or(plot.inner.bottom() - 1);
@@ -245,12 +237,12 @@ fn pinned(look: &Appearance) -> Pen {
     Pen { sign: '+', ..look.quiet() }
 }
 
-/// Prints the solver's message above the chart if the motion failed; returns the rest of the area.
-fn failed(app: &App, buffer: &mut Buffer, inside: Rect) -> Rect {
-    let (look, width) = (&app.appearance, usize::from(inside.width).saturating_sub(2));
-    let mut lines = app.failure().map_or(Vec::new(), |failure| wrap(&look.spell(failure), width));
-    lines.truncate(usize::from(inside.height / 3));
-    lines_above(app, buffer, inside, &lines, Role::Trouble)
+/// Returns the solver's message, which is above the chart if the motion failed.
+fn failed(app: &App, at: ViewArea) -> Lines {
+    let told = |failure: &String| paragraph(app, failure, at.area, Role::Trouble);
+    let mut lines = app.failure().map_or(Lines::new(), told);
+    lines.truncate(usize::from(at.below(0).height / 3));
+    lines
 }
 
 /// Returns the clearance levels \[m\] with their labels, for scenes beyond the paper, where the

@@ -39,7 +39,9 @@ impl Rows<'_> {
     ) -> u16 {
         let look = &app.appearance;
         // The first column of the screen is for the cursor sign.
-        let lines = self.table.lines(usize::from(area.width.saturating_sub(1)), 1);
+        let room = usize::from(area.width.saturating_sub(1));
+        let spell = |text: &str| look.spell(&greek(text).replace("g_0", "g0"));
+        let lines = self.table.lines(room, 1, spell);
         let parts = lines.split_first().filter(|_| area.height > 0);
         let Some((headings, rows)) = parts else { return 0 };
         let head = u16::from(area.height >= HEADING_FROM);
@@ -101,11 +103,6 @@ impl Rows<'_> {
             }
         }
     }
-}
-
-/// Spells a table with the letters that the screen can show.
-pub fn spelled<'a>(app: &'a App, table: Table<'a>) -> Table<'a> {
-    table.spelled(|text| app.appearance.spell(&greek(text).replace("g_0", "g0")))
 }
 
 /// Returns the areas of the cells of a line.

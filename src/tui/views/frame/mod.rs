@@ -12,12 +12,11 @@ use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant, readable};
 use crate::tui::film::{in_blade_frame, rim_point};
 use crate::tui::history::Channel;
-use crate::tui::plot::Plot;
 use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::chart::{Chart, Curve};
-use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel};
 use crate::tui::views::response::ResponseView;
 use rubscope_solver::model::SideLeft;
 use rubscope_solver::motion::ActiveSet;
@@ -100,12 +99,12 @@ fn touching_sides(app: &App) -> impl Fn(u32) -> bool {
 
 fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
-    let quiet = look.style(Role::Quiet);
     let polygon = &app.machine.polygon;
     let (x, y) = square(at.area, app.usual_reach().max(app.run.ranges.rim.high));
     let point = look.either('●', 'O');
-    let mut legend = vec![
-        (format!("{}, {}m", named(app), x.scale.prefix), quiet),
+    let mut chart = Chart::new("polygon", x, y);
+    chart.legend = vec![
+        (format!("{}, {}m", named(app), x.scale.prefix), look.style(Role::Quiet)),
         (format!("{point} now"), look.style(Role::Focus)),
         (app.contact_shown(), look.style(Role::Contact)),
     ];
@@ -116,16 +115,14 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     if left.is_empty() {
         // No position leaves every gap open, so each side is drawn where its own blade lifts off.
         let inside = if app.is_pressed() { "inside all rub" } else { "some rub everywhere" };
-        legend.insert(1, (inside.into(), look.style(Role::Text)));
+        chart.legend.insert(1, (inside.into(), look.style(Role::Text)));
         let whole = |(side, apothem): (u32, &f64)| {
             let half = polygon.half_side() * (apothem / polygon.clearance);
             SideLeft { side, next: side, reach: [-half, half] }
         };
         left = (0..).zip(&apothems).map(whole).collect();
     }
-    let read = reading(app, x, y, &apothems);
-    let name = read_before(look, &mut legend, read, "polygon");
-    let inside = title(app, buffer, at, name, &legend);
+    chart.reading = reading(app, x, y, &apothems);
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     let touching = touching_sides(app);
@@ -138,7 +135,6 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let ends = reach.map(|along| end(along.clamp(-most, most)));
         (if touching(*side) { touched } else { outline }, Curve::Line(Box::new(ends.into_iter())))
     };
-    let mut chart = Chart::new(x, y);
     let past = app.record().iter().take_while(|bin| bin.from < app.now());
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     chart.curves.push((look.first(), Curve::Line(Box::new(trail))));
@@ -152,7 +148,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     });
     let signs = [cursor, now].into_iter().flatten();
     chart.points = signs.map(|(x, y, sign)| (x, y, sign, look.style(Role::Focus))).collect();
-    chart.draw(app, buffer, at, inside);
+    chart.draw(app, buffer, at);
 }
 
 /// Clearance at rest as drawn at the usual magnification, in radii of the wheel.
@@ -186,17 +182,17 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let touching = app.touching_blades();
     let contact = if touching.is_empty() { quiet } else { look.style(Role::Contact) };
     let mark = look.either('▲', '^');
-    let mut legend = vec![
+    let mut chart = Chart { bare: true, ..Chart::new("wheel", x, y) };
+    chart.legend = vec![
         (format!("{mark} {}", app.contact_shown()), contact),
         (format!("gaps x {exaggeration:.0}"), quiet),
     ];
     let cursor = app.cursor_in(ViewId::Frame).filter(|_| at.large);
-    let read = cursor.and_then(|cursor| blade_read(app, x, y, cursor));
-    let name = read_before(look, &mut legend, read, "wheel");
-    let inside = title(app, buffer, at, name, &legend);
-    let Some(mut plot) = Plot::bare(buffer, inside, x, y, look) else { return };
-    at.note(app, plot.inner);
-    let Some(moment) = app.shown() else { return };
+    chart.reading = cursor.and_then(|cursor| blade_read(app, x, y, cursor));
+    let Some(moment) = app.shown() else {
+        chart.draw(app, buffer, at);
+        return;
+    };
     let z = in_blade_frame(moment.state.u, machine.nodal_diameters * moment.angle);
     let casing = (0..=OUTLINE).map(|k| {
         let angle = TAU * f64::from(k) / f64::from(OUTLINE);
@@ -214,34 +210,28 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let (b_sin, b_cos) = (machine.blade_diameters * angle_of(blade)).sin_cos();
         let [a_c, a_s] = moment.state.alpha;
         let longer = CLEARANCE * machine.longer(blade - 1) / unit;
-        let radius = match outward == 0.0 {
-            true => 1.0 + longer,
-            false => 1.0 + longer + outward * (a_c * b_cos + a_s * b_sin),
-        };
-        [radius.max(HUB) * cos, radius.max(HUB) * sin]
+        let radius = 1.0 + longer + outward * (a_c * b_cos + a_s * b_sin);
+        (radius.max(HUB) * cos, radius.max(HUB) * sin)
     };
-    let spoke = |blade: u32, pen: &Pen, plot: &mut Plot| {
+    let spoke = |blade: u32, pen: Pen| {
         let (sin, cos) = angle_of(blade).sin_cos();
-        let [x, y] = tip(blade);
-        plot.curve([(HUB * cos, HUB * sin), (x, y)], pen);
+        let ends = [(HUB * cos, HUB * sin), tip(blade)];
+        (pen, Curve::Line(Box::new(ends.into_iter())))
     };
     let blades = Pen { style: look.style(Role::Text), sign: '.', dashed: false };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
     // Spokes closer than a cell would merge.
-    let all = polygon.blades <= u32::from(inside.width) * 2;
-    let touches = |blade: u32| touching.contains(&blade);
-    for blade in (1..=polygon.blades).filter(|blade| all && !touches(*blade)) {
-        spoke(blade, &blades, &mut plot);
-    }
-    plot.curve(casing, &look.first());
-    for blade in (1..=polygon.blades).filter(|blade| touches(*blade)) {
-        spoke(blade, &touched, &mut plot);
-    }
-    plot.ink();
-    for blade in touching.iter().filter(|_| all) {
-        let [x, y] = tip(*blade);
-        plot.point(x, y, mark, look.style(Role::Contact));
-    }
+    let all = polygon.blades <= u32::from(at.area.width) * 2;
+    chart.curves.extend(touching.iter().map(|blade| spoke(*blade, touched)));
+    chart.curves.push((look.first(), Curve::Line(Box::new(casing))));
+    let free = (1..=polygon.blades).filter(|blade| all && !touching.contains(blade));
+    chart.curves.extend(free.map(|blade| spoke(blade, blades)));
+    let sign = |(x, y): (f64, f64), sign, role| (x, y, sign, look.style(role));
+    let marked = touching.iter().filter(|_| all);
+    chart.points = marked.map(|blade| sign(tip(*blade), mark, Role::Contact)).collect();
+    let cursor = cursor.map(|cursor| (x.at(cursor.across), y.at(cursor.up)));
+    chart.points.extend(cursor.map(|place| sign(place, '+', Role::Focus)));
+    let Some(mut plot) = chart.draw(app, buffer, at) else { return };
     // If most blades touch, their numbers say nothing useful.
     let named = if 2 * touching.len() > polygon.blades as usize { &[][..] } else { &touching };
     for blade in named.iter().copied().take(MOST_NUMBERS) {
@@ -249,9 +239,6 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let (name, style) = (blade.to_string(), look.style(Role::Contact));
         let mut places = NUMBERS.into_iter();
         let _ = places.any(|part| plot.free_label((part * cos, part * sin), &name, style));
-    }
-    if let Some(cursor) = cursor {
-        plot.point(x.at(cursor.across), y.at(cursor.up), '+', look.style(Role::Focus));
     }
 }
 

@@ -5,7 +5,6 @@ use ratatui::buffer::Buffer;
 
 use crate::sheet::Sheet;
 use crate::sheet::table::Table;
-use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, instant};
 use crate::tui::plot::Plot;
@@ -13,7 +12,7 @@ use crate::tui::raster::Pen;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::chart::{Chart, Curve};
-use crate::tui::views::panel::{ViewArea, ViewPanel, read_before, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 
 /// The view of the gap of every blade.
@@ -32,13 +31,12 @@ impl ViewPanel for GapsView {
         let mark = look.either('▲', '^');
         let shown = app.contact_shown();
         let style = if active_set.is_empty() { quiet } else { contact };
-        let mut legend = vec![
+        let mut chart = Chart::new("gaps", x, y.evened(at.below(0), look));
+        chart.legend = vec![
             (format!("{}m by blade", y.scale.prefix), quiet),
             (format!("{mark} {shown}"), style),
         ];
-        let name = read_before(look, &mut legend, reading(app), "gaps");
-        let inside = title(app, buffer, at, name, &legend);
-        let mut chart = Chart::new(x, y.evened(inside, look));
+        chart.reading = reading(app);
         // With a lining the level of the clearance can be below zero, so it needs a label.
         let name = if app.has_lining() { "g0" } else { "" };
         chart.levels = vec![(0.0, "", Role::Text), (app.machine.clearance(), name, Role::Quiet)];
@@ -47,7 +45,7 @@ impl ViewPanel for GapsView {
         let gaps: &[f64] = moment.map_or(&[], |moment| &moment.gaps);
         let known = || (1..=count).map(f64::from).zip(gaps.iter().copied());
         // The labels of the axis take up to six columns.
-        let room = u32::from(inside.width.saturating_sub(6));
+        let room = u32::from(at.area.width.saturating_sub(6));
         // There are no values between blades; the line only joins the points.
         if app.is_still() || count > room {
             let pen = Pen { dashed: false, ..look.quiet() };
@@ -64,7 +62,7 @@ impl ViewPanel for GapsView {
             let gap = gaps.get(blade.saturating_sub(1) as usize).filter(|_| app.has_lining());
             chart.points.push((f64::from(*blade), shown(*gap.unwrap_or(&0.0)), mark, contact));
         }
-        let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
+        let Some(mut plot) = chart.draw(app, buffer, at) else { return };
         if moment.is_some() {
             label(&mut plot, &active_set, app);
         }
@@ -102,8 +100,7 @@ impl ViewPanel for GapsView {
 
 /// Returns the index of the blade under the cursor, from 0; `None` without a cursor in this view.
 fn read_blade(app: &App) -> Option<u32> {
-    let cursor = app.cursor_in(ViewId::Gaps)?;
-    Some(cell_of(cursor.across, app.machine.polygon.blades))
+    app.cell_in(ViewId::Gaps).map(|[blade, _]| blade)
 }
 
 /// Describes the blade under the cursor: number, gap, and the time if the cursor has one. `None`

@@ -9,15 +9,14 @@ mod words;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, not_yet, title};
+use super::panel::{ViewArea, ViewPanel, cursor_at, message, not_yet, title};
 use crate::sheet::Sheet;
 use crate::sheet::map::sheet;
 use crate::sheet::table::WIDTH;
-use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::command::Command;
 use crate::tui::knobs::{Knob, knob_of};
-use crate::tui::text::{pieces, print};
+use crate::tui::text::pieces;
 use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
 use plan::{LiveMap, MapAxis, MapChoice};
@@ -42,12 +41,14 @@ impl ViewPanel for MapView {
         let live = app.results().found.map.as_deref();
         let plan = app.map_plan();
         let entries = words::title(app, live, plan.as_ref().ok());
-        let inside = title(app, buffer, at, "map", &entries);
         if let Err(reason) = plan {
             let text = format!("no map: {reason}");
-            return print(buffer, inside, 1, &text, app.appearance.style(Role::Trouble));
+            return message(app, buffer, at, ("map", &entries), (&text, Role::Trouble));
         }
-        let Some(live) = live else { return not_yet(app, buffer, inside) };
+        let Some(live) = live else {
+            return message(app, buffer, at, ("map", &entries), not_yet(app));
+        };
+        let inside = title(app, buffer, at, "map", &entries);
         let chart = explain(app, live, buffer, inside, at.large);
         picture::draw(app, live, buffer, chart, at);
     }
@@ -63,7 +64,7 @@ impl ViewPanel for MapView {
     /// Opens the run of the cell under the cursor, with the map's law and solver. The cell of the
     /// scene keeps the scene's values, which may lie beside those of its middle.
     fn opening(&self, app: &App, _: Cursor) -> Option<Command> {
-        let (plan, [column, row]) = (app.shown_plan()?, app.map_cell()?);
+        let (plan, [column, row]) = (app.shown_plan()?, app.cell_in(ViewId::Map)?);
         let mut scene = plan.scene_of(plan.index(column, row)).ok()?;
         let is_in = |axis: &Axis, cell: u32| {
             (axis.place(picture::present(app, axis)) - f64::from(cell)).abs() <= 0.5
@@ -83,13 +84,9 @@ impl ViewPanel for MapView {
 
 /// Returns the centre of the map cell nearest to the current knobs.
 fn here(app: &App, plan: &MapPlan) -> Cursor {
-    let part = |axis: &Axis| {
-        let count = f64::from(axis.count.max(1));
-        let place = axis.place(picture::present(app, axis));
-        let place = if place.is_finite() { place.round().clamp(0.0, count - 1.0) } else { 0.0 };
-        (place + 0.5) / count
-    };
-    Cursor { across: part(&plan.x), up: part(&plan.y) }
+    // A place that is not a number becomes cell 0.
+    let cell = |axis: &Axis| axis.place(picture::present(app, axis)).round() as u32;
+    cursor_at([cell(&plan.x), cell(&plan.y)], [plan.x.count, plan.y.count])
 }
 
 /// Prints the legend and the cell under the cursor, beside the map or above it; returns the rest of
@@ -100,7 +97,7 @@ fn explain(app: &App, live: &LiveMap, buffer: &mut Buffer, inside: Rect, large: 
         true => Rect { x: inside.right() - BESIDE + 1, width: BESIDE - 1, ..inside },
         false => Rect { x: inside.x + 1, width: inside.width.saturating_sub(1), ..inside },
     };
-    let (width, reads) = (usize::from(area.width), large && app.map_cell().is_some());
+    let (width, reads) = (usize::from(area.width), large && app.cell_in(ViewId::Map).is_some());
     let lines: Vec<Line> = match inside.height {
         _ if beside => words::column(app, live, width),
         TWO_ROWS_FROM.. if large => vec![words::legend(app, live), words::row(app, live, width)],
@@ -139,14 +136,6 @@ impl App {
     pub fn shown_plan(&self) -> Option<MapPlan> {
         let shown = self.results().found.map.as_ref().map(|live| live.map.plan.clone());
         shown.or_else(|| self.map_plan().ok())
-    }
-
-    /// Returns column and row of the map cell under the cursor, both from 0, row 0 at the bottom.
-    /// `None` without a map, and if the cursor is not in it.
-    pub fn map_cell(&self) -> Option<[u32; 2]> {
-        let cursor = self.cursor_in(ViewId::Map)?;
-        let plan = self.shown_plan()?;
-        Some([cell_of(cursor.across, plan.x.count), cell_of(cursor.up, plan.y.count)])
     }
 
     /// Returns the contact law of the map: the chosen one, or that of the scene.

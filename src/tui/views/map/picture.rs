@@ -13,6 +13,7 @@ use crate::tui::axis::ChartAxis;
 use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::plot::Plot;
 use crate::tui::theme::{Role, Theme};
+use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::SPEED;
 use rubscope_solver::study::overlay::Curve;
@@ -51,7 +52,7 @@ pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: View
     let Some(plot) = Plot::new(buffer, area, x, y, look) else { return };
     let inner = plot.inner;
     at.note(app, inner);
-    let mut picture = Picture { plot, look, live, inner, ground: Vec::new() };
+    let mut picture = Picture { plot, look, live, inner };
     picture.cells();
     if plan.x.path == SPEED || plan.y.path == SPEED {
         live.lines.iter().for_each(|line| picture.line(line));
@@ -61,7 +62,7 @@ pub fn draw(app: &App, live: &LiveMap, buffer: &mut Buffer, area: Rect, at: View
         let (column, row) = (picture.column(across), picture.row(up));
         picture.over(column, row, look.either('╋', '+'), Role::Focus);
     }
-    if let Some([column, row]) = app.map_cell().filter(|_| at.large) {
+    if let Some([column, row]) = app.cell_in(ViewId::Map).filter(|_| at.large) {
         let (x, y) = (picture.column(f64::from(column)), picture.row(f64::from(row)));
         for (x, sign) in [(x.checked_sub(1), '['), (x.checked_add(1), ']')] {
             if let Some(x) = x.filter(|x| (inner.x..inner.right()).contains(x)) {
@@ -77,7 +78,8 @@ pub fn is_inside(axis: &Axis, place: f64) -> bool {
     (-0.5..=f64::from(axis.count) - 0.5).contains(&place)
 }
 
-fn chart_axis(axis: &Axis) -> ChartAxis {
+/// Returns an axis of the map as that of a chart.
+pub fn chart_axis(axis: &Axis) -> ChartAxis {
     let (from, to) = (axis.from, axis.to);
     match axis.log {
         true => ChartAxis::powers(from.log10(), to.log10(), Some(unit(&axis.path))),
@@ -92,9 +94,6 @@ struct Picture<'a> {
     look: &'a Appearance,
     live: &'a LiveMap,
     inner: Rect,
-    /// Background colour of each character of the data area, row by row, for signs drawn over it;
-    /// `None` where the background has no colour.
-    ground: Vec<Option<Color>>,
 }
 
 impl Picture<'_> {
@@ -120,7 +119,6 @@ impl Picture<'_> {
                     let halves = 2 * inner.height;
                     block(look, [2 * row, 2 * row + 1].map(|half| shown(column, half, halves)))
                 };
-                self.ground.push(style.bg);
                 self.plot.text(x, inner.y + row, sign.encode_utf8(&mut [0; 4]), style);
             }
         }
@@ -147,10 +145,8 @@ impl Picture<'_> {
         if !(self.inner.y..self.inner.bottom()).contains(&y) {
             return;
         }
-        let place = usize::from(y - self.inner.y) * usize::from(self.inner.width)
-            + usize::from(x.saturating_sub(self.inner.x));
         let mut style = self.look.style(role);
-        if let Some(ground) = self.ground.get(place).copied().flatten() {
+        if let Some(ground) = self.plot.ground(x, y) {
             style = style.fg(ink(self.look, ground));
         }
         self.plot.text(x, y, sign.encode_utf8(&mut [0; 4]), style);

@@ -2,7 +2,7 @@
 
 use ratatui::style::Style;
 
-use super::picture::{is_inside, present, sign, unit};
+use super::picture::{chart_axis, is_inside, present, sign, unit};
 use super::plan::{CellRun, LiveMap};
 use crate::sheet::map::means;
 use crate::sheet::number::{count, from_shown, in_shown_unit, per_speed, rounded};
@@ -11,6 +11,7 @@ use crate::tui::axis::{number, readable};
 use crate::tui::knobs::{Knob, knob_of};
 use crate::tui::text::{columns, few, whole_parts, wrap};
 use crate::tui::theme::Role;
+use crate::tui::views::id::ViewId;
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::SPEED;
 use rubscope_solver::study::overlay::Curve;
@@ -40,13 +41,7 @@ fn axis_name(axis: &Axis) -> String {
     match unit(&axis.path) {
         unit if axis.log || unit.is_empty() => name.to_string(),
         unit => {
-            // Same prefix as the ticks.
-            let scale = crate::tui::axis::SiScale::of(axis.from.abs().max(axis.to.abs()));
-            let (_, unit) = in_shown_unit(0.0, unit);
-            if axis.path == SPEED {
-                return format!("{name} [{unit}]");
-            }
-            format!("{name} [{}{unit}]", scale.prefix)
+            format!("{name} [{}{}]", chart_axis(axis).scale.prefix, in_shown_unit(0.0, unit).1)
         }
     }
 }
@@ -112,7 +107,7 @@ pub fn row(app: &App, live: &LiveMap, width: usize) -> Line {
     };
     let taken = columns(&format!("[ ] {head}:   {verdict} "));
     let detail = whole_parts(&detail, width.saturating_sub(taken), 1).concat();
-    let shown = app.map_cell().and_then(|[column, row]| live.shown(column, row));
+    let shown = app.cell_in(ViewId::Map).and_then(|[column, row]| live.shown(column, row));
     let (sign, style) =
         shown.map_or((' ', look.style(Role::Text)), |cell| sign(look, cell.verdict));
     vec![
@@ -127,7 +122,7 @@ pub fn row(app: &App, live: &LiveMap, width: usize) -> Line {
 /// Returns values, verdict and details of the cell under the cursor; `None` without a cursor in the
 /// map.
 fn cell(app: &App, live: &LiveMap) -> Option<[String; 3]> {
-    let [column, row] = app.map_cell()?;
+    let [column, row] = app.cell_in(ViewId::Map)?;
     let plan = &live.map.plan;
     let values = [(&plan.x, column), (&plan.y, row)]
         .map(|(axis, place)| named_value(axis, axis.value(place)));

@@ -12,10 +12,9 @@ use crate::tui::app::App;
 use crate::tui::axis::number;
 use crate::tui::command::Command;
 use crate::tui::knobs::knob_of;
-use crate::tui::text::wrap;
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
-use crate::tui::views::panel::{ViewArea, lines_above, not_yet, title};
+use crate::tui::views::panel::{Lines, ViewArea, lines_above, message, not_yet, paragraph, title};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::{OUT_OF_ROUND, SPEED};
 use rubscope_solver::study::margins::{ChangedVerdict, Margins, VerdictChange};
@@ -41,27 +40,26 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
     let locked = app.verdict() == Some(Verdict::Locked);
     let name = if locked { "what ends this lock" } else { "what would lock" };
     let legend = old.then(|| ("outdated".to_string(), look.style(Role::Focus)));
-    let inside = title(app, buffer, at, name, legend.as_slice());
     let Some(margins) = known.map(|(live, _)| &live.margins) else {
-        return not_yet(app, buffer, inside);
+        return message(app, buffer, at, (name, legend.as_slice()), not_yet(app));
     };
+    let inside = title(app, buffer, at, name, legend.as_slice());
     let role = if old { Role::Quiet } else { Role::Text };
     let rows = rows(margins, locked).into_iter();
     let rows = rows.map(|(_, cells)| cells.map(TableCell::Word).into()).collect();
+    let table = Table::with_rows([""; 3].map(Heading::shown), rows);
     // Without the headings.
-    let lines = Table::with_rows([""; 3].map(Heading::shown), rows).lines(usize::MAX, 1);
-    let lines = lines.into_iter().skip(1).map(|cells| look.spell(&cells.join(" ")));
-    let mut lines: Vec<String> = lines.collect();
+    let lines = table.lines(usize::MAX, 1, |text| look.spell(text)).into_iter().skip(1);
+    let mut lines: Lines = lines.map(|cells| (cells.join(" "), role)).collect();
     // Every quantity was searched.
     let is_complete = margins.robust.as_ref().is_some_and(|of| of.changes.len() == of.rows);
     if lines.is_empty() && is_complete {
-        let text = look.spell(&nothing(app, locked));
-        lines = wrap(&text, usize::from(inside.width.saturating_sub(1)));
+        lines = paragraph(app, &nothing(app, locked), inside, role);
     }
-    let left = lines_above(app, buffer, inside, &lines, role);
+    let left = lines_above(app, buffer, inside, &lines);
     if left.height > 1 {
         let last = Rect { y: left.bottom() - 1, height: 1, ..left };
-        lines_above(app, buffer, last, &[NEXT.into()], Role::Quiet);
+        lines_above(app, buffer, last, &vec![(NEXT.into(), Role::Quiet)]);
     }
 }
 

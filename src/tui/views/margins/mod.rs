@@ -8,23 +8,24 @@ mod survey;
 
 use ratatui::{buffer::Buffer, layout::Rect};
 
-use super::panel::{ViewArea, ViewPanel, lines_above, not_yet, title};
+use super::panel::{
+    Lines, ViewArea, ViewPanel, cursor_at, lines_above, message, not_yet, paragraph, title,
+};
 use crate::sheet::number::{rounded, speed_unit};
-use crate::sheet::survey::sheet;
 use crate::sheet::{Sheet, margins};
-use crate::tui::app::reading::cell_of;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::number;
 use crate::tui::command::Command;
 use crate::tui::knobs::{knob_of, place_of};
-use crate::tui::text::{first_lines, print, wrap};
+use crate::tui::text::{columns, first_lines, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
-use crate::tui::views::table::{Rows, spelled};
+use crate::tui::views::table::Rows;
 use live::LiveMargins;
 use rows::{DIGITS, LEADING};
 use rubscope_solver::scene::{Allowed, Value};
 use rubscope_solver::study::margins::Margins;
+pub use survey::SurveyView;
 
 /// Columns of the cursor: the limit, and its most influential knobs.
 pub const COLUMNS: u32 = margins::STRONGEST as u32 + 1;
@@ -40,17 +41,16 @@ const WIDE: usize = 70;
 /// Rows of limits that stay visible below on a small screen.
 const LEFT: usize = 6;
 
-/// The view of the margins, or of the survey over all nodal diameters.
+/// The view of the margins.
 pub struct MarginsView;
 
 impl ViewPanel for MarginsView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
-        if app.layout.survey {
-            return survey::draw(app, buffer, at, survey::cell(app).filter(|_| at.large));
-        }
-        let look = &app.appearance;
-        let inside = title(app, buffer, at, "margins", &rows::title(app));
-        let Some((live, old)) = app.margins() else { return not_yet(app, buffer, inside) };
+        let (look, legend) = (&app.appearance, rows::title(app));
+        let Some((live, old)) = app.margins() else {
+            return message(app, buffer, at, ("margins", &legend), not_yet(app));
+        };
+        let inside = title(app, buffer, at, "margins", &legend);
         let cell = app.margins_cell().filter(|_| at.large);
         let told = match (at.large, inside.height) {
             (true, TOLD_TWICE_FROM..) => 2,
@@ -58,15 +58,13 @@ impl ViewPanel for MarginsView {
             _ => 0,
         };
         let limits = &live.margins.limits;
-        let above = Rect { height: inside.height - told, ..inside };
-        let head = match at.large && !old {
-            true => self::head(app, &live.margins, buffer, above, limits.len()),
-            false => 0,
-        };
-        let above = Rect { y: above.y + head, height: above.height - head, ..above };
+        let mut above = Rect { height: inside.height - told, ..inside };
+        if at.large && !old {
+            above = lines_above(app, buffer, above, &head(app, &live.margins, above, limits.len()));
+        }
         let table = margins::table(&live.margins, |name| name.titles()[1].to_string());
         let drawn = Rows {
-            table: spelled(app, table),
+            table,
             cursor: [LEADING, COLUMNS as usize],
             cell,
             home: rows::home(app, limits),
@@ -84,29 +82,20 @@ impl ViewPanel for MarginsView {
         let width = usize::from(below.width.saturating_sub(1));
         let lines = wrap(&look.spell(&text), width);
         let lines = first_lines(lines, width, usize::from(told), look.ellipsis());
-        lines_above(app, buffer, below, &lines, role);
+        lines_above(app, buffer, below, &lines.into_iter().map(|line| (line, role)).collect());
     }
 
     fn grid(&self, app: &App) -> [u32; 2] {
-        if app.layout.survey {
-            return [1, survey::rows(app)].map(|count| count * survey::rows(app).min(1));
-        }
         let rows = app.margins().map_or(0, |(live, _)| live.margins.limits.len());
         u32::try_from(rows).ok().filter(|rows| *rows > 0).map_or([0, 0], |rows| [COLUMNS, rows])
     }
 
     fn here(&self, app: &App) -> Cursor {
-        if app.layout.survey {
-            return survey::here(app);
-        }
-        let rows = f64::from(self.grid(app)[1].max(1));
-        Cursor { across: 0.5 / f64::from(COLUMNS), up: 1.0 - 0.5 / rows }
+        let [_, rows] = self.grid(app);
+        cursor_at([0, u32::MAX], [COLUMNS, rows])
     }
 
     fn opening(&self, app: &App, _: Cursor) -> Option<Command> {
-        if app.layout.survey {
-            return survey::opening(app);
-        }
         let ((live, old), [column, row]) = (app.margins()?, app.margins_cell()?);
         if old {
             let reason = "these margins are outdated; new ones are being computed";
@@ -116,11 +105,7 @@ impl ViewPanel for MarginsView {
     }
 
     fn sheet<'a>(&self, app: &'a App) -> Option<Sheet<'a>> {
-        let (live, _) = app.margins()?;
-        Some(match &live.survey {
-            Some(found) if app.layout.survey => sheet(found, false, app.view_command()),
-            _ => margins::sheet(&live.margins, app.view_command()),
-        })
+        Some(margins::sheet(&app.margins()?.0.margins, app.view_command()))
     }
 }
 
@@ -137,11 +122,9 @@ impl App {
     /// Returns column and row of the margins under the cursor; row 0 is at the top. `None` without
     /// a cursor in the margins, and until there are margins.
     pub fn margins_cell(&self) -> Option<[usize; 2]> {
-        let cursor = self.cursor_in(ViewId::Margins)?;
-        let rows =
-            u32::try_from(self.margins()?.0.margins.limits.len()).ok().filter(|rows| *rows > 0)?;
-        let row = rows - 1 - cell_of(cursor.up, rows);
-        Some([cell_of(cursor.across, COLUMNS), row].map(|cell| cell as usize))
+        let [column, from_below] = self.cell_in(ViewId::Margins)?;
+        let rows = self.margins()?.0.margins.limits.len();
+        Some([column as usize, rows.checked_sub(1 + from_below as usize)?])
     }
 
     /// Switches between the survey over all nodal diameters and the margins of one; from another
@@ -182,17 +165,18 @@ impl App {
     }
 }
 
-/// Draws the distance of this run from another verdict at the top of an area, as a sentence and one
-/// row per quantity, under each contact law examined; returns its height. The rows of the second law are shown
+/// Returns the distance of this run from another verdict as a sentence and one row per quantity,
+/// under each contact law examined, for the top of an area. The rows of the second law are shown
 /// only if all `limits` fit below them.
-fn head(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limits: usize) -> u16 {
-    let (look, mut lines) = (&app.appearance, Vec::new());
+fn head(app: &App, margins: &Margins, area: Rect, limits: usize) -> Lines {
+    let mut lines = Lines::new();
     let (height, width) = (usize::from(area.height), usize::from(area.width.saturating_sub(1)));
     for (place, found) in margins::robust::asked(margins).enumerate() {
         let sentence = margins::robust::sentence(found, margins, width >= WIDE);
-        let sentence = wrap(&look.spell(&sentence), width);
-        let shown = |at| margins::robust::table(found, at).lines(usize::MAX, 1);
-        let wide = |row: &Vec<String>| row.join(" ").chars().count() > width;
+        let sentence = paragraph(app, &sentence, area, Role::Text);
+        let spell = |text: &str| app.appearance.spell(text);
+        let shown = |at| margins::robust::table(found, at).lines(usize::MAX, 1, spell);
+        let wide = |row: &Vec<String>| columns(&row.join(" ")) > width;
         let ways = [" at ", " "].map(shown).into_iter().find(|rows| !rows.iter().any(wide));
         let rows = ways.unwrap_or_else(|| {
             let mut rows = shown(" ");
@@ -203,18 +187,14 @@ fn head(app: &App, margins: &Margins, buffer: &mut Buffer, area: Rect, limits: u
         if lines.len() + sentence.len() + LEFT > height {
             break;
         }
-        lines.extend(sentence.into_iter().map(|line| (line, Role::Text)));
+        lines.extend(sentence);
         let below = if place == 0 { LEFT } else { limits + 2 };
         if lines.len() + rows.len() + below <= height {
             let role = |row| if row == 0 { Role::Quiet } else { Role::Text };
             lines.extend(rows.iter().enumerate().map(|(row, cells)| (cells.join(" "), role(row))));
         }
     }
-    let at = Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area };
-    for (y, (text, role)) in (0..).zip(&lines) {
-        print(buffer, at, y, &look.spell(text), look.style(*role));
-    }
-    u16::try_from(lines.len()).unwrap_or(area.height)
+    lines
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::theme::Role;
 use crate::tui::views::ViewId;
 use crate::tui::views::chart::{Chart, Curve, curves, legend};
-use crate::tui::views::panel::{ViewArea, ViewPanel, entry, not_yet, read_before, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, entry, message, not_yet};
 use crate::tui::views::spectrum::lines::{DECADES, Spectrum};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity};
 
@@ -73,21 +73,19 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let quiet = look.style(Role::Quiet);
     let unit = (format!("m by {}", frequency_unit()), quiet);
     let Some(spectrum) = app.results().found.spectrum.as_deref() else {
-        let inside = title(app, buffer, at, "spectrum", &[unit, (NOTE.to_string(), quiet)]);
-        return not_yet(app, buffer, inside);
+        let legend = [unit, (NOTE.to_string(), quiet)];
+        return message(app, buffer, at, ("spectrum", &legend), not_yet(app));
     };
     let x = ChartAxis::frequencies(0.0, spectrum.highest);
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
-    let mut entries = vec![unit];
-    entries.extend(legend(look, &spectrum.panel).into_iter().flatten());
-    let read = cursor.and_then(|frequency| reading(spectrum, frequency));
-    let name = read_before(look, &mut entries, read, "spectrum");
-    entries.push((NOTE.to_string(), quiet));
-    let inside = title(app, buffer, at, name, &entries);
     let marks = lines(app, app.speed());
-    let mut chart = Chart::new(x, ChartAxis::powers(DECADES.0, DECADES.1, None));
+    let mut chart = Chart::new("spectrum", x, ChartAxis::powers(DECADES.0, DECADES.1, None));
+    chart.legend = vec![unit];
+    chart.legend.extend(legend(look, &spectrum.panel).into_iter().flatten());
+    chart.legend.push((NOTE.to_string(), quiet));
+    chart.reading = cursor.and_then(|frequency| reading(spectrum, frequency));
     (chart.marks, chart.read, chart.curves) = (&marks, cursor, curves(look, &spectrum.panel));
-    chart.draw(app, buffer, at, inside);
+    chart.draw(app, buffer, at);
 }
 
 /// Describes the spectral line nearest to a frequency \[rad/s\]; `None` beyond the last line.
@@ -100,22 +98,20 @@ fn reading(spectrum: &Spectrum, frequency: f64) -> Option<String> {
 
 fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
-    let quiet = look.style(Role::Quiet);
     let meet = look.either('◆', '@');
-    let legend = [
-        entry(look, &look.first(), "n_d Ω"),
-        entry(look, &look.second(), "n_d Ω±ω_bd"),
-        (format!("{meet} meets ω_c"), look.style(Role::Contact)),
-        (format!("{} by {}", frequency_unit(), speed_unit()), quiet),
-    ];
-    let inside = title(app, buffer, at, "Campbell", &legend);
     let fastest =
         app.results().found.locked.as_ref().map_or(600.0, |curves| curves.speeds.range[1]);
     let top = app.machine.nu(fastest).max(1.5 * app.machine.omega_c);
     // The speed axis covers the current direction of rotation.
     let sense = if app.speed() < 0.0 { -1.0 } else { 1.0 };
     let x = ChartAxis::speeds((sense * fastest).min(0.0), (sense * fastest).max(0.0));
-    let mut chart = Chart::new(x, ChartAxis::frequencies(0.0, top));
+    let mut chart = Chart::new("Campbell", x, ChartAxis::frequencies(0.0, top));
+    chart.legend = vec![
+        entry(look, &look.first(), "n_d Ω"),
+        entry(look, &look.second(), "n_d Ω±ω_bd"),
+        (format!("{meet} meets ω_c"), look.style(Role::Contact)),
+        (format!("{} by {}", frequency_unit(), speed_unit()), look.style(Role::Quiet)),
+    ];
     (chart.levels, chart.now) =
         (vec![(app.machine.omega_c, "ω_c", Role::Quiet)], Some(app.speed()));
     for (pen, place) in [(look.first(), 0), (look.second(), 2), (look.second(), 3)] {
@@ -126,5 +122,5 @@ fn campbell(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let meets = app.machine.coincidence_speeds().into_iter().chain(app.machine.critical_speed());
     let contact = look.style(Role::Contact);
     chart.points = meets.map(|speed| (sense * speed, app.machine.omega_c, meet, contact)).collect();
-    chart.draw(app, buffer, at, inside);
+    chart.draw(app, buffer, at);
 }

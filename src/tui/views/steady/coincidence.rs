@@ -11,9 +11,8 @@ use crate::sheet::hbm::coincidence::add_points;
 use crate::sheet::number::{frequency_unit, per_frequency, per_speed, speed_unit};
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
-use crate::tui::text::print;
 use crate::tui::theme::Role;
-use crate::tui::views::panel::{ViewArea, ViewPanel, not_yet, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, message, not_yet};
 use rubscope_solver::motion::ActiveSet;
 use rubscope_solver::scene::ModelSize;
 
@@ -26,12 +25,11 @@ pub struct CoincidenceView;
 impl ViewPanel for CoincidenceView {
     fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea) {
         let Some(curves) = curves(app) else {
-            let inside = title(app, buffer, at, PANELS[0][0], &[]);
-            if app.results().found.coincidence.is_none() {
-                return not_yet(app, buffer, inside);
-            }
-            let quiet = app.appearance.style(Role::Quiet);
-            return print(buffer, inside, 1, "this wave has no coincidence", quiet);
+            let why = match app.results().found.coincidence {
+                Some(_) => ("this wave has no coincidence", Role::Quiet),
+                None => not_yet(app),
+            };
+            return message(app, buffer, at, (PANELS[0][0], &[]), why);
         };
         let grows = curves.points.iter().any(|point| point.growth_1_s.is_some());
         let (first, second) = if grows { at.pair(40) } else { (at, None) };
@@ -52,8 +50,8 @@ impl ViewPanel for CoincidenceView {
             let y = ChartAxis::around(values.chain(now.iter().map(|now| now.0)));
             let y = if y.high > y.low { y } else { ChartAxis::scaled(0.0, 1e-4) };
             let now = Some(now.as_slice()).filter(|now| !now.is_empty());
-            let chart = SpeedChart { name, panel, y, unit, now, notes: Vec::new(), beyond, text };
-            curves.speeds.draw(app, buffer, at, chart);
+            let chart = SpeedChart { name, y, unit, now, beyond, text, ..Default::default() };
+            curves.speeds.draw(app, buffer, at, panel, chart);
         }
     }
 

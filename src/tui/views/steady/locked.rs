@@ -5,7 +5,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Constraint, Layout};
 
-use super::locked_curves::LockedCurves;
+use super::locked_curves::{LockedCurves, UNDAMPED};
 use super::{NAMED_FROM, SpeedChart, present};
 use crate::sheet::Sheet;
 use crate::sheet::hbm::locked::add_points;
@@ -14,19 +14,19 @@ use crate::tui::app::layout::LEAST_ROWS;
 use crate::tui::app::reading::STEP;
 use crate::tui::app::{App, Cursor};
 use crate::tui::axis::{ChartAxis, readable};
-use crate::tui::text::print;
 use crate::tui::theme::Role;
-use crate::tui::views::panel::{ViewArea, ViewPanel, entry, not_yet, title};
+use crate::tui::views::panel::{ViewArea, ViewPanel, entry, message, not_yet};
 use rubscope_solver::harmonic::{Form, lock_windows, locked_motion};
 use rubscope_solver::motion::{ActiveSet, Verdict};
-use rubscope_solver::study::figures::{Panel, Series, Style};
+use rubscope_solver::study::figures::Panel;
 
 /// Height from which the large chart also shows the undamped curve of the paper.
 const ROOMY: u16 = 14;
 /// Name of the chart of the multipliers.
 const NAME: &str = "locked λ(Ω)";
-/// Names, units and remarks of the charts below it.
-const BELOW: [[&str; 3]; 2] = [
+/// Names, units and remarks of the charts; the lower two need room.
+const CHARTS: [[&str; 3]; 3] = [
+    [NAME, "N", "below 0 pushes"],
     ["locked α(Ω)", "rad", "one blade of each group"],
     ["locked u(Ω)", "m", "u_ss = u_cc, u_sc = -u_cs"],
 ];
@@ -40,7 +40,7 @@ impl ViewPanel for LockedView {
         let Some(curves) = curves.filter(|curves| curves.damped.is_some()) else {
             return nothing(app, buffer, at);
         };
-        let below = (at.area.height / LEAST_ROWS).saturating_sub(1).min(BELOW.len() as u16);
+        let below = (at.area.height / LEAST_ROWS).saturating_sub(1).min(CHARTS.len() as u16 - 1);
         let lower = (at.area.height * 2 / (3 + 2 * below)).max(LEAST_ROWS);
         let rows = std::iter::once(Constraint::Min(1));
         let rows = rows.chain((0..below).map(|_| Constraint::Length(lower)));
@@ -49,13 +49,23 @@ impl ViewPanel for LockedView {
             let at = ViewArea { area: *area, ..at };
             areas.get(place + 1).map_or(at, |lower| at.above(*lower))
         });
-        let mut charts = curves.speeds.panels.iter().zip(placed);
-        charts.next().into_iter().for_each(|(_, at)| multipliers(app, buffer, at, curves));
-        for ((panel, at), [name, unit, note]) in charts.zip(BELOW) {
-            let (y, notes) = (scale(curves, panel), vec![note]);
-            let (now, beyond, text) = (None, Vec::new(), None);
-            let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
-            curves.speeds.draw(app, buffer, at, chart);
+        let now = running(app);
+        let charts = curves.speeds.panels.iter().zip(placed).zip(CHARTS);
+        for ((panel, at), [name, unit, note]) in charts {
+            let (y, mut panel) = (scale(curves, panel), panel.clone());
+            let mut chart = SpeedChart { name, y, unit, notes: vec![note], ..Default::default() };
+            if name == NAME {
+                let roomy = at.large && at.area.height >= ROOMY;
+                panel.series.retain(|series| roomy || series.style != UNDAMPED);
+                chart.name = if at.area.width < NAMED_FROM { "λ(Ω)" } else { NAME };
+                chart.now = Some(&now);
+                chart.notes.extend(app.has_lining().then_some("of a rigid casing"));
+                let round = (app.machine.out_of_round() != 0.0).then_some("of a round casing");
+                chart.notes.extend(round.into_iter().chain(app.tuned_note()));
+                let read = curves.speeds.read(app).filter(|_| at.large);
+                chart.text = read.map(|speed| (reading(app, speed), Role::Focus));
+            }
+            curves.speeds.draw(app, buffer, at, &panel, chart);
         }
     }
 
@@ -76,53 +86,12 @@ impl ViewPanel for LockedView {
     }
 }
 
-/// Draws the multipliers, with what is said of them, and the forces of the running motion.
-fn multipliers(app: &App, buffer: &mut Buffer, at: ViewArea, curves: &LockedCurves) {
-    let Some(mut panel) = curves.speeds.panels.first().cloned() else { return };
-    name_multipliers(app, curves, &mut panel);
-    let y = scale(curves, &panel);
-    let roomy = at.large && at.area.height >= ROOMY;
-    if let Some(undamped) = curves.undamped.as_ref().filter(|_| roomy) {
-        let points = undamped.points.iter();
-        let points = points.map(|point| (point.speed_rad_s, point.multipliers_n[0]));
-        panel.series.push(Series::new("undamped", Style::Dotted(0), points));
-    }
-    let mut notes = vec!["below 0 pushes"];
-    notes.extend(app.has_lining().then_some("of a rigid casing"));
-    notes.extend((app.machine.out_of_round() != 0.0).then_some("of a round casing"));
-    notes.extend(app.tuned_note());
-    let read = curves.speeds.read(app).filter(|_| at.large);
-    let text = read.map(|speed| (reading(app, speed), Role::Focus));
-    let name = if at.area.width < NAMED_FROM { "λ(Ω)" } else { NAME };
-    let now = running(app);
-    let (panel, unit, now, beyond) = (&panel, "N", Some(now.as_slice()), Vec::new());
-    let chart = SpeedChart { name, panel, y, unit, now, beyond, notes, text };
-    curves.speeds.draw(app, buffer, at, chart);
-}
-
-/// Returns the axis of a panel. It follows the curves, because the mean force over an impact can be
-/// far outside.
+/// Returns the axis of a panel. It follows the damped curves, because the mean force over an impact
+/// can be far outside.
 fn scale(curves: &LockedCurves, panel: &Panel) -> ChartAxis {
-    let points = panel.series.iter().flat_map(|series| &series.points);
+    let series = panel.series.iter().filter(|series| series.style != UNDAMPED);
+    let points = series.flat_map(|series| &series.points);
     ChartAxis::around(points.filter(|at| curves.scales(at.0)).map(|at| at.1))
-}
-
-/// Names the multipliers, and adds that of the stable whirl. Without damping, equal tips have equal
-/// multipliers: one curve is enough.
-fn name_multipliers(app: &App, curves: &LockedCurves, panel: &mut Panel) {
-    let uneven = app.machine.has_unequal_tips();
-    if !uneven && curves.undamped.is_none() {
-        panel.series.truncate(1);
-        panel.series.iter_mut().for_each(|series| series.label = "λ".into());
-    }
-    let sides = curves.damped.iter().filter(|_| uneven).flat_map(|sweep| sweep.corner.sides());
-    for (series, side) in panel.series.iter_mut().zip(sides) {
-        series.label = format!("{} {}", series.label, app.blades_of([side].into_iter()));
-    }
-    if !curves.whirl.is_empty() {
-        let whirl = curves.whirl.iter().copied();
-        panel.series.push(Series::new("whirl", Style::Dashed(2), whirl));
-    }
 }
 
 /// Says why there is no curve.
@@ -130,9 +99,8 @@ fn nothing(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let unit = (format!("N over {}", speed_unit()), look.style(Role::Quiet));
     let legend = [unit, entry(look, &look.first(), "λ"), present(app, &running(app))];
-    let inside = title(app, buffer, at, NAME, &legend);
     let text = if app.results().found.locked.is_none() {
-        return not_yet(app, buffer, inside);
+        not_yet(app).0
     } else if app.is_pressed() {
         "all blades rub at rest: nothing locks; view 9 shows what grows"
     } else if app.machine.has_other_diameters() {
@@ -142,7 +110,7 @@ fn nothing(app: &App, buffer: &mut Buffer, at: ViewArea) {
     } else {
         "no corner between two blade groups: this wave never locks"
     };
-    print(buffer, inside, 1, text, look.style(Role::Quiet));
+    message(app, buffer, at, (NAME, &legend), (text, Role::Quiet));
 }
 
 /// Returns the mean multipliers of the running motion \[N\] with their text; negative pushes. Empty

@@ -3,30 +3,29 @@
 
 use super::speeds::Speeds;
 use crate::sheet::hbm::locked::add_points;
+use crate::sheet::line::blades;
 use crate::tui::axis::nice_step;
 use crate::tui::views::id::ViewId;
-use rubscope_solver::harmonic::{Form, RoundWhirl, SpeedRanges, Sweep, locked_motion};
+use rubscope_solver::harmonic::{Form, LockedPoint, RoundWhirl, SpeedRanges, Sweep, locked_motion};
 use rubscope_solver::model::Machine;
 use rubscope_solver::scene::{ContactLaw, Scene};
+use rubscope_solver::study::figures::{Series, Style};
 
 /// Number of speeds per curve.
 const POINTS: u32 = 161;
 
+/// Style of the multipliers without damping.
+pub const UNDAMPED: Style = Style::Dotted(0);
+
 /// Multipliers over speed of one machine.
 #[derive(Clone, Debug)]
 pub struct LockedCurves {
-    /// The speeds from 0 on, and the panels of the damped motion.
+    /// The speeds from 0 on, and the panels of the damped motion. The first one has the
+    /// multipliers, also those of the stable whirl, and dotted those without damping, as in the
+    /// paper, if there is casing damping, friction or an inclined tip.
     pub speeds: Speeds,
     /// The locked motion with the damping of the scene; `None` if the machine has no locked motion.
     pub damped: Option<Sweep>,
-    /// The locked motion without damping, as in the paper; `None` if the machine has no locked
-    /// motion, or has neither casing damping nor inclined tips nor friction.
-    pub undamped: Option<Sweep>,
-    /// Magnitude of the speed \[rad/s\], and mean multiplier of the stable whirl there \[N\];
-    /// negative pushes. Computed in the limit of many blades. Empty without radial coupling, with
-    /// rigid blades or a lining, and for unequal tips or a casing out of round, where no closed
-    /// form is known.
-    pub whirl: Vec<(f64, f64)>,
     /// Magnitude of the speed up to which the scales include the values \[rad/s\]. Beyond it the
     /// locked motion can have a resonance of casing and blades, which would flatten the rest.
     pub scaled_to: f64,
@@ -47,18 +46,30 @@ impl LockedCurves {
         };
         let has_damping = machine.casing_damping > 0.0 || machine.tips_incline_or_rub();
         let damped = curve(true);
+        let undamped = has_damping.then(|| curve(false)).flatten();
         let (range, marks) = ([0.0, fastest], marks(scene, &machine));
         let speeds = Speeds { view: ViewId::Locked, range, marks, panels: Vec::new() };
-        let speeds = speeds.with_panels(scene, |sheet| {
+        let mut speeds = speeds.with_panels(scene, |sheet| {
             damped.iter().for_each(|damped| add_points(&damped.points, sheet));
         });
-        Self {
-            speeds,
-            damped,
-            undamped: has_damping.then(|| curve(false)).flatten(),
-            whirl: whirl(scene, &machine, &at),
-            scaled_to: scaled_to(scene, &machine).unwrap_or(fastest),
+        if let Some((damped, panel)) = damped.as_ref().zip(speeds.panels.first_mut()) {
+            let series = &mut panel.series;
+            if machine.has_unequal_tips() {
+                for (series, side) in series.iter_mut().zip(damped.corner.sides()) {
+                    series.label += &format!(" {}", blades(&machine.first_of_side(side)));
+                }
+            } else if undamped.is_none() {
+                // Without damping, equal tips have equal multipliers: one curve is enough.
+                series.truncate(1);
+                series.iter_mut().for_each(|series| series.label = "λ".into());
+            }
+            let whirl = Series::new("whirl", Style::Dashed(2), whirl(scene, &machine, &at));
+            series.extend(Some(whirl).filter(|whirl| !whirl.points.is_empty()));
+            let of = |point: &LockedPoint| (point.speed_rad_s, point.multipliers_n[0]);
+            let undamped = undamped.iter().map(|sweep| sweep.points.iter().map(of));
+            series.extend(undamped.map(|points| Series::new("undamped", UNDAMPED, points)));
         }
+        Self { speeds, damped, scaled_to: scaled_to(scene, &machine).unwrap_or(fastest) }
     }
 
     /// Returns whether the scales include the values at a speed \[rad/s\].
@@ -67,7 +78,10 @@ impl LockedCurves {
     }
 }
 
-/// Returns speed \[rad/s\] and multiplier \[N\] of the stable whirl, for every speed that has one.
+/// Returns the magnitude of the speed \[rad/s\] and the mean multiplier \[N\] of the stable whirl,
+/// for every speed that has one; negative pushes. Computed in the limit of many blades. Empty
+/// without radial coupling, with rigid blades or a lining, and for unequal tips or a casing out of
+/// round, where no closed form is known.
 fn whirl(scene: &Scene, machine: &Machine, speeds: &[f64]) -> Vec<(f64, f64)> {
     let open = machine.clearance_at_rest() > 0.0;
     let rigid = scene.solver.contact != ContactLaw::Smooth && open;

@@ -16,7 +16,7 @@ use crate::tui::axis::ChartAxis;
 use crate::tui::text::whole_parts;
 use crate::tui::theme::Role;
 use crate::tui::views::chart::{Chart, curves, legend};
-use crate::tui::views::panel::{ViewArea, lines_above, title};
+use crate::tui::views::panel::{Lines, ViewArea};
 use rubscope_solver::study::figures::Panel;
 use speeds::Speeds;
 
@@ -27,9 +27,9 @@ const MOST_ROWS: usize = 3;
 const NAMED_FROM: u16 = 46;
 
 /// A chart over the speeds of a view.
+#[derive(Default)]
 struct SpeedChart<'a> {
     name: &'a str,
-    panel: &'a Panel,
     y: ChartAxis,
     unit: &'a str,
     /// Values of the running motion, none without contact; `None` if they are not shown.
@@ -56,12 +56,12 @@ impl Speeds {
         app.cursor_in(self.view).map(|cursor| from + cursor.across * (to - from))
     }
 
-    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea, what: SpeedChart) {
+    fn draw(&self, app: &App, buffer: &mut Buffer, at: ViewArea, panel: &Panel, what: SpeedChart) {
         let look = &app.appearance;
         let [quiet, contact] = [Role::Quiet, Role::Contact].map(|role| look.style(role));
         let unit = format!("{}{} over {}", what.y.scale.prefix, what.unit, speed_unit());
         let mut entries = vec![(unit, quiet)];
-        let [lines, dotted] = legend(look, what.panel);
+        let [lines, dotted] = legend(look, panel);
         entries.extend(lines);
         entries.extend(what.now.map(|now| present(app, now)));
         entries.extend(what.notes.iter().map(|note| (note.to_string(), quiet)));
@@ -69,20 +69,22 @@ impl Speeds {
         if app.speed() < 0.0 {
             entries.push(("over |Ω|, turning backwards".into(), quiet));
         }
-        let mut inside = title(app, buffer, at, what.name, &entries);
+        let mut lines = Lines::new();
         if let Some((text, role)) = what.text {
-            let width = usize::from(inside.width).saturating_sub(1);
+            let width = usize::from(at.area.width).saturating_sub(1);
             // The chart keeps at least three quarters of the rows.
-            let most = MOST_ROWS.min(usize::from(inside.height / 4)).max(1);
-            let lines = whole_parts(&look.spell(&text), width, most);
-            inside = lines_above(app, buffer, inside, &lines, role);
+            let most = MOST_ROWS.min(usize::from(at.below(0).height / 4)).max(1);
+            let parts = whole_parts(&look.spell(&text), width, most);
+            lines = parts.into_iter().map(|line| (line, role)).collect();
         }
-        let y = what.y.evened(inside, look);
-        let mut chart = Chart::new(ChartAxis::speeds(self.range[0], self.range[1]), y);
+        let y = what.y.evened(at.below(lines.len()), look);
+        let x = ChartAxis::speeds(self.range[0], self.range[1]);
+        let mut chart = Chart::new(what.name, x, y);
+        (chart.legend, chart.lines) = (entries, lines);
         chart.levels.push((0.0, "", Role::Quiet));
         let speed = app.speed().abs();
         (chart.marks, chart.read, chart.now) = (&self.marks, self.read(app), Some(speed));
-        chart.curves = curves(look, what.panel);
+        chart.curves = curves(look, panel);
         let place = |value: f64| match value {
             below if below < y.low => (look.either('▼', 'v'), y.low),
             above if above > y.high => (look.either('▲', '^'), y.high),
@@ -93,7 +95,7 @@ impl Speeds {
         let up = (look.either('▲', '^'), look.style(Role::Trouble));
         chart.points = what.beyond.into_iter().map(|speed| (speed, y.high, up.0, up.1)).collect();
         chart.points.extend(places.map(|(sign, value)| (speed, value, sign, contact)));
-        let Some(mut plot) = chart.draw(app, buffer, at, inside) else { return };
+        let Some(mut plot) = chart.draw(app, buffer, at) else { return };
         for (value, text) in now.iter().filter(|_| at.area.width < NAMED_FROM) {
             if let Some(row) = plot.row(place(*value).1) {
                 plot.free_note(speed, row, text, contact);
