@@ -154,6 +154,17 @@ macro_rules! cells {
 }
 cells!(Flag(bool), Count(u64), Count(u32), Word(&str), Word(String));
 
+/// Lists columns of a table: the name of a field of the items, or a name and the function that makes
+/// the cell.
+macro_rules! columns {
+    (@ $name:ident) => { (stringify!($name), |item| item.$name.into()) };
+    (@ $name:ident $cell:expr) => { (stringify!($name), $cell) };
+    ($($name:ident $(: $cell:expr)?),* $(,)?) => {
+        [$($crate::sheet::table::columns!(@ $name $($cell)?)),*]
+    };
+}
+pub(crate) use columns;
+
 /// A column of a table: its heading, and the function that makes its cell from an item.
 pub type Column<'a, T, H = &'a str> = (H, fn(&T) -> TableCell);
 

@@ -2,7 +2,7 @@
 
 use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
-use crate::sheet::table::{Column, Table, TableCell};
+use crate::sheet::table::{Column, Table, TableCell, columns};
 use rubscope_solver::harmonic::{
     Branches, Corner, Equilibrium, Form, Kind, Locked, LockedPoint, Threshold,
 };
@@ -90,23 +90,18 @@ fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
 }
 
-const STATES: &[Column<'_, Equilibrium>] = &[
-    ("speed_rad_s", |state| state.speed_rad_s.into()),
-    ("state", |state| state.kind.as_ref().into()),
-    ("character", |state| state.character.as_ref().into()),
-    ("multiplier_a_n", |state| multiplier(state, 0)),
-    ("multiplier_b_n", |state| multiplier(state, 1)),
-    ("amplitude_m", |state| state.amplitude_m.into()),
+const STATES: &[Column<'_, Equilibrium>] = &columns! {
+    speed_rad_s,
+    state: |state| state.kind.as_ref().into(),
+    character: |state| state.character.as_ref().into(),
+    multiplier_a_n: |state| multiplier(state, 0),
+    multiplier_b_n: |state| multiplier(state, 1),
+    amplitude_m,
     // At rest there is no drive power.
-    ("power_w", |state| (state.kind != Kind::Rest).then_some(state.power_w).into()),
-    ("growth_per_s", |state| growth(state).into()),
-    ("smallest_gap_m", |state| state.smallest_gap_m.into()),
-    ("torque_nm", |state| state.torque_nm.into()),
-    ("alpha_c_rad", |state| state.alpha_c_rad.into()),
-    ("alpha_s_rad", |state| state.alpha_s_rad.into()),
-    ("admissible", |state| state.admissible.into()),
-    ("stable", |state| state.stable.into()),
-];
+    power_w: |state| (state.kind != Kind::Rest).then_some(state.power_w).into(),
+    growth_per_s: |state| growth(state).into(),
+    smallest_gap_m, torque_nm, alpha_c_rad, alpha_s_rad, admissible, stable,
+};
 
 /// Returns the growth rate of a deviation from an equilibrium \[1/s\], negative if it decays. It is
 /// 0 within round-off of the eigenvalues: an undamped motion neither grows nor decays.

@@ -2,7 +2,7 @@
 
 use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
-use crate::sheet::table::{Column, Table, TableCell};
+use crate::sheet::table::{Column, Table, TableCell, columns};
 use rubscope_solver::harmonic::{Campbell, Coincidence, Line};
 use rubscope_solver::scene::SceneError;
 
@@ -47,9 +47,6 @@ fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table<'static> {
     })
 }
 
-const COINCIDENCES: &[Column<'_, Coincidence>] = &[
-    ("speed_rad_s", |found| found.speed_rad_s.into()),
-    ("casing_rad_s", |found| found.casing_rad_s.into()),
-    ("blades_rad_s", |found| found.blades_rad_s.into()),
-    ("dangerous", |found| found.dangerous.into()),
-];
+const COINCIDENCES: &[Column<'_, Coincidence>] = &columns! {
+    speed_rad_s, casing_rad_s, blades_rad_s, dangerous,
+};

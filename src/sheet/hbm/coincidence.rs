@@ -4,7 +4,7 @@
 use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
 use crate::sheet::number::{per_speed, short, speed, speed_unit};
-use crate::sheet::table::{Column, Table};
+use crate::sheet::table::{Column, Table, columns};
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
 use rubscope_solver::scene::SceneError;
 
@@ -53,11 +53,6 @@ pub fn add_points<'a>(
 }
 
 /// Columns of the growth rate of rest and of the limit cycle.
-const CURVE: &[Column<'_, CoincidencePoint>] = &[
-    ("speed_rad_s", |point| point.speed_rad_s.into()),
-    ("growth_1_s", |point| point.growth_1_s.into()),
-    ("blade_amplitude_rad", |point| point.blade_amplitude_rad.into()),
-    ("casing_amplitude_m", |point| point.casing_amplitude_m.into()),
-    ("omega_rad_s", |point| point.omega_rad_s.into()),
-    ("bounded", |point| point.bounded.into()),
-];
+const CURVE: &[Column<'_, CoincidencePoint>] = &columns! {
+    speed_rad_s, growth_1_s, blade_amplitude_rad, casing_amplitude_m, omega_rad_s, bounded,
+};

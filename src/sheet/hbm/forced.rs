@@ -4,7 +4,7 @@
 use super::view::{Request, View, ViewContact};
 use crate::sheet::Sheet;
 use crate::sheet::number::count;
-use crate::sheet::table::{Column, Table};
+use crate::sheet::table::{Column, Table, columns};
 use rubscope_solver::harmonic::{Forced, Lining};
 use rubscope_solver::scene::{ContactLaw, SceneError, keys};
 
@@ -48,11 +48,6 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
     Ok(())
 }
 
-const POINTS: &[Column<'_, Forced>] = &[
-    ("speed_rad_s", |point| point.speed_rad_s.into()),
-    ("s_rad_s", |point| point.s_rad_s.into()),
-    ("omega_rad_s", |point| point.omega_rad_s.into()),
-    ("amplitude_m", |point| point.amplitude_m.into()),
-    ("blade_angle_rad", |point| point.blade_angle_rad.into()),
-    ("all_press", |point| point.all_press.into()),
-];
+const POINTS: &[Column<'_, Forced>] = &columns! {
+    speed_rad_s, s_rad_s, omega_rad_s, amplitude_m, blade_angle_rad, all_press,
+};

@@ -3,7 +3,7 @@
 use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
-use crate::sheet::table::{Column, Table};
+use crate::sheet::table::{Column, Table, columns};
 use rubscope_solver::harmonic::{Form, LockedPoint, Sweep};
 use rubscope_solver::scene::SceneError;
 
@@ -61,23 +61,14 @@ fn held(sweep: &Sweep, blades: &[Vec<u32>; 2]) -> String {
     )
 }
 
-const POINTS: &[Column<'_, LockedPoint>] = &[
-    ("speed_rad_s", |point| point.speed_rad_s.into()),
-    ("multiplier_a_n", |point| point.multipliers_n[0].into()),
-    ("multiplier_b_n", |point| point.multipliers_n[1].into()),
-    ("alpha_a_rad", |point| point.alpha_rad[0].into()),
-    ("amplitude_m", |point| point.amplitude_m.into()),
-    ("power_w", |point| point.power_w.into()),
-    ("character", |point| point.character.as_ref().into()),
-    ("alpha_b_rad", |point| point.alpha_rad[1].into()),
-    ("u_cc_m", |point| point.u_cc_m.into()),
-    ("u_cs_m", |point| point.u_cs_m.into()),
-    ("u_sc_m", |point| point.u_sc_m.into()),
-    ("u_ss_m", |point| point.u_ss_m.into()),
-    ("smallest_gap_m", |point| point.smallest_gap_m.into()),
-    ("torque_nm", |point| point.torque_nm.into()),
-    ("admissible", |point| point.admissible.into()),
-    ("stable", |point| point.stable.into()),
-    ("growth_1_s", |point| point.growth_1_s.into()),
-    ("residual", |point| point.residual.into()),
-];
+const POINTS: &[Column<'_, LockedPoint>] = &columns! {
+    speed_rad_s,
+    multiplier_a_n: |point| point.multipliers_n[0].into(),
+    multiplier_b_n: |point| point.multipliers_n[1].into(),
+    alpha_a_rad: |point| point.alpha_rad[0].into(),
+    amplitude_m, power_w,
+    character: |point| point.character.as_ref().into(),
+    alpha_b_rad: |point| point.alpha_rad[1].into(),
+    u_cc_m, u_cs_m, u_sc_m, u_ss_m, smallest_gap_m, torque_nm,
+    admissible, stable, growth_1_s, residual,
+};

@@ -5,7 +5,7 @@
 use super::view::{Request, View, ViewContact, all_speeds};
 use crate::sheet::Sheet;
 use crate::sheet::number::{short, speed};
-use crate::sheet::table::{Column, Table, TableCell};
+use crate::sheet::table::{Column, Table, TableCell, columns};
 use rubscope_solver::harmonic::{
     Cycle, HopfPoint, Lining, LiningState, Rest, growth_threshold, least_lock_stiffness,
     lock_windows, shifted_coincidence,
@@ -106,12 +106,9 @@ fn pressed_title(lining: &Lining<'_>, shifted: Option<f64>, hopf: &[HopfPoint]) 
 }
 
 /// Columns of the Hopf points: the speeds at which a wave about rest begins or ceases to grow.
-const HOPF: &[Column<'_, HopfPoint>] = &[
-    ("speed_rad_s", |point| point.speed_rad_s.into()),
-    ("s_rad_s", |point| point.s_rad_s.into()),
-    ("omega_rad_s", |point| point.omega_rad_s.into()),
-    ("grows_above", |point| point.grows_above.into()),
-];
+const HOPF: &[Column<'_, HopfPoint>] = &columns! {
+    speed_rad_s, s_rad_s, omega_rad_s, grows_above,
+};
 
 /// Columns of rest under a preload, with its stable limit cycle.
 const RESTS: &[Column<'_, RestRow>] = &[
@@ -136,33 +133,25 @@ const RESTS: &[Column<'_, RestRow>] = &[
 ];
 
 /// Columns of the limit cycles.
-const CYCLES: &[Column<'_, Cycle>] = &[
-    ("speed_rad_s", |cycle| cycle.speed_rad_s.into()),
-    ("omega_rad_s", |cycle| cycle.omega_rad_s.into()),
-    ("s_rad_s", |cycle| cycle.s_rad_s.into()),
-    ("gap_amplitude_m", |cycle| cycle.gap_amplitude_m.into()),
-    ("casing_m", |cycle| cycle.casing_m.into()),
-    ("blade_rad", |cycle| cycle.blade_rad.into()),
-    ("growth_1_s", |cycle| cycle.growth_1_s.into()),
-    ("character", |cycle| word(cycle.stable)),
-];
+const CYCLES: &[Column<'_, Cycle>] = &columns! {
+    speed_rad_s, omega_rad_s, s_rad_s, gap_amplitude_m, casing_m, blade_rad, growth_1_s,
+    character: |cycle| word(cycle.stable),
+};
 
 /// Columns of the waves that are at rest in the frame of the blades.
-const STATES: &[Column<'_, LiningState>] = &[
-    ("speed_rad_s", |state| state.speed_rad_s.into()),
-    ("pushing", |state| (state.pushing as u64).into()),
-    ("push_a_n", |state| push(state, 0)),
-    ("push_b_n", |state| push(state, 1)),
-    ("push_c_n", |state| push(state, 2)),
-    ("casing_m", |state| state.casing_m.into()),
-    ("blade_rad", |state| state.blade_rad.into()),
-    ("growth_1_s", |state| state.growth_1_s.into()),
-    ("character", |state| word(state.stable)),
-    ("frequency_rad_s", |state| state.frequency_rad_s.into()),
-    ("blade_a", |state| blade(state, 0)),
-    ("blade_b", |state| blade(state, 1)),
-    ("blade_c", |state| blade(state, 2)),
-];
+const STATES: &[Column<'_, LiningState>] = &columns! {
+    speed_rad_s,
+    pushing: |state| (state.pushing as u64).into(),
+    push_a_n: |state| push(state, 0),
+    push_b_n: |state| push(state, 1),
+    push_c_n: |state| push(state, 2),
+    casing_m, blade_rad, growth_1_s,
+    character: |state| word(state.stable),
+    frequency_rad_s,
+    blade_a: |state| blade(state, 0),
+    blade_b: |state| blade(state, 1),
+    blade_c: |state| blade(state, 2),
+};
 
 fn word(stable: bool) -> TableCell {
     if stable { "stable" } else { "unstable" }.into()

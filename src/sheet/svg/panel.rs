@@ -12,7 +12,7 @@ const TITLE: f64 = 24.0;
 const SAMPLE: f64 = 26.0;
 const APART: f64 = 18.0;
 /// Distance of the axes from the left, the right and the lower edge \[px\].
-const LABELS: f64 = 88.0;
+const LABELS: f64 = 100.0;
 const RIGHT: f64 = 24.0;
 const BELOW: f64 = 52.0;
 /// Largest number of ticks on an axis.
