@@ -79,29 +79,21 @@ impl FiguresCommand {
             .option("--out", "figures");
         let origin = Provenance { command, scene };
         let stem = which.stem();
-        let (mut wrote, mut replaced) = (Vec::new(), Vec::new());
-        let mut note = |name: String, written| match written {
-            Written::New => wrote.push(name),
-            Written::Replaced => replaced.push(name),
+        let mut written: [Vec<String>; 2] = Default::default();
+        let mut save = |name: String, content: &dyn Fn(&mut dyn Write) -> std::io::Result<()>| {
+            let done = output::replace_or_print(&self.out.join(&name), out, content)?;
+            written[usize::from(done == Written::Replaced)].push(name);
+            anyhow::Ok(())
         };
-        let name = format!("{stem}.svg");
-        let written = output::replace_or_print(&self.out.join(&name), out, &|out| {
-            svg::write(figure, &origin, out)
-        })?;
-        note(name, written);
+        save(format!("{stem}.svg"), &|out| svg::write(figure, &origin, out))?;
         for (panel, letter) in figure.panels.iter().zip('a'..='z') {
             let letter = if figure.panels.len() > 1 { letter.to_string() } else { String::new() };
-            let name = format!("{stem}{letter}.csv");
-            let written = output::replace_or_print(&self.out.join(&name), out, &|out| {
-                table(panel).write_csv(out)
-            })?;
-            note(name, written);
+            save(format!("{stem}{letter}.csv"), &|out| table(panel).write_csv(out))?;
         }
         status::say_noted();
         let shown = self.out.display();
-        for (names, done) in [(wrote, "wrote"), (replaced, "replaced")] {
+        for (names, [done, place]) in written.iter().zip([["wrote", "to"], ["replaced", "in"]]) {
             if !names.is_empty() {
-                let place = if done == "wrote" { "to" } else { "in" };
                 say(&format!("rubscope: {done} {} {place} {shown}", names.join(", ")));
             }
         }

@@ -7,7 +7,7 @@ use strum::VariantNames;
 
 use super::options::{SceneOptions, Swept};
 use super::output::OutputOptions;
-use super::status::{self, Done, Refusal, Status};
+use super::status::{self, Done, Refusal};
 use super::words::Words;
 use crate::sheet::CommandLine;
 use crate::sheet::hbm::{LOCKED, Request, VIEWS, View};
@@ -104,8 +104,7 @@ impl HbmCommand {
         let request = Request { scene, speeds, form, damped, pair, machine };
         let sheet = request.sheet(view, self.command(scene)).map_err(refused)?;
         status::say_noted();
-        self.output.deliver(&sheet, out)?;
-        Ok(Status::Done)
+        self.output.deliver(&sheet, out)
     }
 
     /// Returns the command that reproduces the table.

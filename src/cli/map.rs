@@ -91,13 +91,11 @@ impl MapCommand {
         status::say_noted();
         let mut map = Map::empty(plan);
         self.compute(&mut map, shard)?;
-        match shard {
-            Some(_) => {
-                let what = format!("{} rows", map.runs);
-                self.output.save(&what, out, |out| part::write(&map, out))?;
-            }
-            None => self.output.deliver(&report::sheet(&map, width()), out)?,
+        if shard.is_none() {
+            return self.output.deliver(&report::sheet(&map, width()), out);
         }
+        let what = format!("{} rows", map.runs);
+        self.output.save(&what, out, |out| part::write(&map, out))?;
         Ok(Status::Done)
     }
 
@@ -152,8 +150,7 @@ impl Merge {
         let ending = self.output.ending()?;
         let map = read_shares(&self.files)?;
         check_picture(&map.plan, ending)?;
-        self.output.deliver(&report::sheet(&map, width()), out)?;
-        Ok(Status::Done)
+        self.output.deliver(&report::sheet(&map, width()), out)
     }
 }
 

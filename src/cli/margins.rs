@@ -7,7 +7,7 @@ use clap::Args;
 use super::options::SceneOptions;
 use super::output::OutputOptions;
 use super::sign;
-use super::status::{self, Done, Status};
+use super::status::{self, Done};
 use crate::sheet::number::with_typed_unit;
 use crate::sheet::{CommandLine, margins as report};
 use rubscope_solver::motion::to_the_end;
@@ -55,8 +55,7 @@ impl MarginsCommand {
             bar.set_message("nearest changes of the verdict");
             margins.ask_runs(&to_the_end, &mut |_| bar.inc(1));
         }
-        self.output.deliver(&report::sheet(&margins, self.command(&scene)), out)?;
-        Ok(Status::Done)
+        self.output.deliver(&report::sheet(&margins, self.command(&scene)), out)
     }
 
     /// Returns the text of `--target`, with `rpm` appended to a speed without a unit if `--rpm` is

@@ -141,13 +141,12 @@ impl NewCommand {
             modes.sort_by_key(|mode| mode.nodal_diameters);
         }
         let first = casing.first().map(|mode| mode.nodal_diameters.to_string());
-        let counted = |option, key| move |text: &str| Ok(number(option, text, key)? as u32);
-        let blades = "Number of blades";
-        let read = counted("--blades", keys::BLADES);
-        let blades = asking.value("--blades", self.blades.as_ref(), blades, None, &read)?;
+        let ask = |option, given: &Option<String>, what, usual, key| {
+            asking.value(option, given.as_ref(), what, usual, &|text| number(option, text, key))
+        };
+        let blades = ask("--blades", &self.blades, "Number of blades", None, keys::BLADES)? as u32;
         let what = "Inner radius of the casing [m, or such as 500mm]";
-        let read = |text: &str| number("--radius", text, keys::CASING_RADIUS);
-        let radius_m = asking.value("--radius", self.radius.as_ref(), what, None, &read)?;
+        let radius_m = ask("--radius", &self.radius, what, None, keys::CASING_RADIUS)?;
         let what = "Clearance of the blade tips [m, or such as 0.3mm]";
         let read = |text: &str| {
             let clearance = number("--clearance", text, keys::CASING_RADIUS)?;
@@ -157,9 +156,8 @@ impl NewCommand {
         };
         let clearance_m =
             asking.value("--clearance", self.clearance.as_ref(), what, None, &read)?;
-        let read = counted("--nd", keys::DIAMETERS);
-        let nd =
-            asking.value("--nd", self.nd.as_ref(), "Nodal diameters", first.as_deref(), &read)?;
+        let (what, usual) = ("Nodal diameters", first.as_deref());
+        let nd = ask("--nd", &self.nd, what, usual, keys::DIAMETERS)? as u32;
         for (option, name, modes) in
             [("--casing", "casing", &mut casing), ("--disk", "bladed disk", &mut disk)]
         {
@@ -173,24 +171,16 @@ impl NewCommand {
             }
         }
         let ratio = |option, given: &Option<String>, what, key, modes: &[Family]| {
-            let read = |text: &str| number(option, text, key);
             let assumed = modes.iter().any(|mode| mode.damping_ratio.is_none());
             if given.is_none() && assumed && !asking.answers {
                 note(format!("rubscope: {what}: {USUAL_DAMPING} is assumed ({option})"));
             }
-            asking.value(option, given.as_ref(), what, Some(USUAL_DAMPING), &read)
+            ask(option, given, what, Some(USUAL_DAMPING), key)
         };
-        let what = ["Damping ratio of the casing", "Damping ratio of the bladed disk"];
-        let damping_ratios = [
-            ratio(
-                "--casing-damping",
-                &self.casing_damping,
-                what[0],
-                keys::CASING_DAMPING,
-                &casing,
-            )?,
-            ratio("--disk-damping", &self.disk_damping, what[1], keys::BLADE_DAMPING, &disk)?,
-        ];
+        let (what, given) = ("Damping ratio of the casing", &self.casing_damping);
+        let of_casing = ratio("--casing-damping", given, what, keys::CASING_DAMPING, &casing)?;
+        let (what, given) = ("Damping ratio of the bladed disk", &self.disk_damping);
+        let of_disk = ratio("--disk-damping", given, what, keys::BLADE_DAMPING, &disk)?;
         let what = "Speeds of the machine, FROM:TO, such as 6000rpm:11000rpm";
         let read = |text: &str| {
             let speeds = with_typed_unit(text, Quantity::Speed);
@@ -210,7 +200,7 @@ impl NewCommand {
             nodal_diameters: nd,
             casing,
             disk,
-            damping_ratios,
+            damping_ratios: [of_casing, of_disk],
             range_rad_s,
             speeds,
             speed_rad_s: speed_rad_s.unwrap_or(0.5 * (range_rad_s[0] + range_rad_s[1])),

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
-use super::status::{Refusal, say};
+use super::status::{Done, Refusal, Status, say};
 use crate::file::{self, Written};
 use crate::sheet::Sheet;
 use crate::sheet::line::listed;
@@ -47,21 +47,15 @@ impl OutputOptions {
     /// # Errors
     /// As `ending`.
     pub fn ending_among(&self, endings: &[&'static str]) -> anyhow::Result<Option<&'static str>> {
-        let ending = self.known_ending(endings)?;
-        self.out.as_deref().map_or(Ok(()), try_place)?;
-        Ok(ending)
-    }
-
-    /// Returns the ending of the file, which must be one of `endings`; `None` without a file.
-    fn known_ending(&self, endings: &[&'static str]) -> Result<Option<&'static str>, Refusal> {
         let Some(path) = &self.out else { return Ok(None) };
         let Some(known) = file::ending(path, endings) else {
             let names = endings.iter().map(|known| format!(".{known}")).collect::<Vec<_>>();
             let is_bare = names.iter().any(|name| path.ends_with(name));
             let before = if is_bare { ", after a name" } else { "" };
             let allowed = format!("a file name ending in {}{before}", listed(&names, "or"));
-            return Err(Refusal::of("--out", path.display(), allowed));
+            return Err(Refusal::of("--out", path.display(), allowed).into());
         };
+        try_place(path)?;
         Ok(Some(known))
     }
 
@@ -69,18 +63,18 @@ impl OutputOptions {
     ///
     /// # Errors
     /// Standard output or the file could not be written.
-    pub fn deliver(&self, sheet: &Sheet, out: &mut dyn Write) -> anyhow::Result<()> {
+    pub fn deliver(&self, sheet: &Sheet, out: &mut dyn Write) -> Done {
         if self.json {
             sheet.write_json(true, out)?;
         }
-        if let Some(ending) = self.known_ending(&ENDINGS)? {
+        if let Some(ending) = self.out.as_deref().and_then(|path| file::ending(path, &ENDINGS)) {
             let rows = format!("{} rows", sheet.file().map_or(0, Table::len));
             self.save(&rows, out, |out| sheet.write_file(ending, out))?;
         }
         if !self.json {
             sheet.write_text(out)?;
         }
-        Ok(())
+        Ok(Status::Done)
     }
 
     /// Writes `content`, described by `what`, to the file of `--out`, if there is one.

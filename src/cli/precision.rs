@@ -54,9 +54,9 @@ impl PrecisionCommand {
         let command = CommandLine::new("precision", &measured.scene)
             .option("--repeat", self.repeat)
             .option("--finest", self.finest);
-        self.output.deliver(&report::sheet(&measured, command), out)?;
+        let done = self.output.deliver(&report::sheet(&measured, command), out)?;
         if measured.reference.method != Method::None {
-            return Ok(Status::Done);
+            return Ok(done);
         }
         out.flush()?;
         say(&format!("rubscope: nothing to compare with: {}", report::WHY_NONE));

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::options::{SceneOptions, ask_unit};
 use super::output::OutputOptions;
-use super::status::{self, Done, Status};
+use super::status::{self, Done};
 use crate::sheet::number::with_typed_unit;
 use crate::sheet::{CommandLine, survey as report};
 use rubscope_solver::scene::{Quantity, keys, speed_range};
@@ -57,8 +57,7 @@ impl SurveyCommand {
             .optional("--range", self.range())
             .optional("--by", self.by.as_ref())
             .flag("--all", self.all);
-        self.output.deliver(&report::sheet(&survey, self.all, command), out)?;
-        Ok(Status::Done)
+        self.output.deliver(&report::sheet(&survey, self.all, command), out)
     }
 
     /// Returns the text of `--range`, with `rpm` appended to speeds without a unit if `--rpm` is

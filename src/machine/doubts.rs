@@ -7,8 +7,6 @@ use rubscope_solver::model::Mode;
 use rubscope_solver::scene::{Scene, keys};
 use rubscope_solver::study::margins::Margins;
 
-use super::range::TIP_SPEED;
-
 use rubscope_solver::numeric::rounding::rounded;
 
 /// Largest plausible clearance, relative to the radius; blade tips run within some tenths of a per
@@ -33,6 +31,10 @@ const RADIUS: [f64; 2] = [0.02, 8.0];
 /// The paper's casing has 16, its disk 73, a solid steel disk about 6000, a sheet-metal ring 2. Grams
 /// or tonnes given as kilograms are off by a factor of a thousand.
 const DENSITY: [f64; 2] = [1.0, 6000.0];
+
+/// Largest plausible speed of blade tips \[m/s\]; metal tips reach about 500. With a larger one, rpm
+/// given as rad/s would not be noticed for small machines.
+const TIP_SPEED: f64 = 800.0;
 
 /// Factor and exponent `p` of the largest plausible ratio of the frequencies or modal masses of two
 /// modes: factor times the ratio of their nodal diameters to the power `p`. Frequencies of rings rise
@@ -236,6 +238,28 @@ fn speed_doubt(scene: &Scene) -> Option<String> {
             keys::SPEED, speed * 60.0 / TAU
         )
     })
+}
+
+/// Asks whether a range of speeds that was given without a unit \[rad/s\] was meant in rpm: blade
+/// tips do not move so fast, or it contains the speed of the scene only in rpm.
+#[must_use]
+pub fn range_doubt(scene: &Scene, range: [f64; 2]) -> Option<String> {
+    let [from, to] = range;
+    let speed = scene.operation.speed_rad_s;
+    let tips = from.abs().max(to.abs()) * scene.casing.radius_m;
+    let contains = |unit: f64| (from.min(to) * unit..=from.max(to) * unit).contains(&speed);
+    let why = if tips > TIP_SPEED {
+        format!("moves the blade tips at {tips:.0} m/s; metal ones reach some 500")
+    } else if !contains(1.0) && contains(TAU / 60.0) {
+        format!("does not contain the speed of the scene, {:.0} rpm", speed * 60.0 / TAU)
+    } else {
+        return None;
+    };
+    let (typed, in_rpm) = match from == to {
+        true => (from.to_string(), format!("{from}rpm")),
+        false => (format!("{from}:{to}"), format!("{from}rpm:{to}rpm")),
+    };
+    Some(format!("{typed} is in rad/s and {why}. Was it rpm? Then write {in_rpm}."))
 }
 
 fn diameters_doubt(scene: &Scene) -> Option<String> {

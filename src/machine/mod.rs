@@ -7,11 +7,9 @@ mod columns;
 mod doubts;
 mod error;
 mod marks;
-mod range;
 mod table;
 
 pub use build::{Family, ModalData};
-pub use doubts::doubts;
+pub use doubts::{doubts, range_doubt};
 pub use error::TableError;
-pub use range::range_doubt;
 pub use table::{ModeTable, read_modes};

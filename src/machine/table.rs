@@ -112,8 +112,8 @@ pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
             });
         let speed = speed.transpose()?.map(|speed| (mode.frequency_hz, speed));
         match add(&mut found[structure], &mode, speed, &path)? {
-            Added::Mode(unused) => notes.extend(unused),
-            Added::SecondOfPair => pairs[structure].push(format!("line {line}")),
+            Some(unused) => notes.extend(unused),
+            None => pairs[structure].push(format!("line {line}")),
         }
     }
     for (structure, lines) in
@@ -185,15 +185,8 @@ fn numbers(records: &[(u64, StringRecord)], columns: &Columns) -> Vec<Number> {
     records.iter().flat_map(of_record).collect()
 }
 
-/// Effect of a line of the table on the list of modes.
-enum Added {
-    /// A mode or one more speed of a known one, with a note for each value that is not used.
-    Mode(Vec<String>),
-    /// Nothing: the second mode of a pair.
-    SecondOfPair,
-}
-
-/// Adds a mode, or one more speed of a known one.
+/// Adds a mode, or one more speed of a known one. Returns a note for each value that is not used;
+/// `None` for the second mode of a pair, which is not added.
 ///
 /// # Errors
 /// The mode already has a line at this speed, with another frequency or mass.
@@ -202,11 +195,11 @@ fn add(
     mode: &Family,
     speed: Option<(f64, f64)>,
     path: &dyn Fn(&str) -> String,
-) -> Result<Added, SceneError> {
+) -> Result<Option<Vec<String>>, SceneError> {
     let same = |(known, _): &&mut Measured| known.nodal_diameters == mode.nodal_diameters;
     let Some((known, speeds)) = modes.iter_mut().find(same) else {
         modes.push((*mode, speed.into_iter().collect()));
-        return Ok(Added::Mode(Vec::new()));
+        return Ok(Some(Vec::new()));
     };
     let at_speed = match speed {
         None if speeds.is_empty() => Some(known.frequency_hz),
@@ -217,7 +210,7 @@ fn add(
     let is_near =
         |hertz| near(hertz, mode.frequency_hz) && near(known.modal_mass_kg, mode.modal_mass_kg);
     if at_speed.is_some_and(is_near) {
-        return Ok(Added::SecondOfPair);
+        return Ok(None);
     }
     let Some(speed) = speed.filter(|_| at_speed.is_none() && !speeds.is_empty()) else {
         let given = format!("{} twice", mode.nodal_diameters);
@@ -240,7 +233,7 @@ fn add(
         let path = path(name);
         Some(format!("{path} = {second} is not used: the line before of this mode has {first}"))
     });
-    Ok(Added::Mode(unused.collect()))
+    Ok(Some(unused.collect()))
 }
 
 /// Returns a note on the fit of three frequencies or more \[Hz, rad/s\] by
