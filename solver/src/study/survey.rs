@@ -241,13 +241,12 @@ fn locks<'a>(
     asked: [f64; 2],
     ranges: impl Fn(f64) -> &'a SpeedRanges,
 ) -> Option<Vec<[f64; 2]>> {
-    if scene.clearance() <= 0.0 {
-        return Some(Vec::new());
-    }
     if !machine.knows_locks() {
-        // Equal tips in a round casing may have no lock either; that is known.
-        let even = even(scene).machine();
-        if senses(asked).any(|sense| !lock_windows(&even, sense).is_empty()) {
+        // Lobes only break a lock, so none in a round casing is none. Unequal tips can lock where
+        // equal ones do not.
+        let round = even(scene).machine();
+        let locks = || senses(asked).any(|sense| !lock_windows(&round, sense).is_empty());
+        if machine.has_unequal_tips() || locks() {
             return None;
         }
     }
