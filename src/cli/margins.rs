@@ -53,7 +53,7 @@ impl MarginsCommand {
             let rows = Margins::rows_asked(&scene) as u64;
             let bar = sign::bar(rows, "{spinner} {bar:30} {pos}/{len} {msg} {elapsed}");
             bar.set_message("nearest changes of the verdict");
-            margins.ask_runs(&to_the_end, &mut |_| bar.inc(1));
+            margins.ask_runs(true, &to_the_end, &mut |_| bar.inc(1));
         }
         self.output.deliver(&report::sheet(&margins, self.command(&scene)), out)
     }

@@ -56,6 +56,9 @@ pub struct Order {
     pub cell: Option<[u32; 2]>,
     /// Range of rotor speeds of the survey \[rad/s\]; `None` for all speeds.
     pub range: Option<[f64; 2]>,
+    /// Whether the margins are wanted under both laws if the law pulls, and not only under that of
+    /// the scene.
+    pub every_law: bool,
 }
 
 impl Order {
@@ -190,25 +193,21 @@ pub enum FullRunState {
     /// Given up at this fraction, because it takes too long.
     GivenUp(f64),
     /// Complete, with its result.
-    Done(Box<FullRun>),
+    Done(Arc<FullRun>),
 }
 
 /// The run to `solver.end_s`, computed ahead of the playback.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FullRun {
-    /// The state at the end.
-    pub end: State,
     /// The first changes of contact of the run, in order of time.
-    pub marks: Arc<Vec<Mark>>,
-    /// The longest hold of a corner that ended during the run, and the rotor speed at its end
-    /// \[rad/s\]; `None` if no hold of at least a period of the casing ended.
-    pub broken: Option<(Hold, f64)>,
+    pub marks: Vec<Mark>,
+    /// The longest hold of a corner that ended during the run; `None` if no hold of at least a
+    /// period of the casing ended.
+    pub broken: Option<Hold>,
+    /// Simulated time since which a corner is held at the end \[s\]; `None` if none is.
+    pub locked_s: Option<f64>,
     /// What the headline says of the run alone.
     pub facts: Facts,
-    /// Verdict of the run.
-    pub verdict: Verdict,
-    /// Simulated time at which the contact at the end began \[s\].
-    pub since: Option<f64>,
 }
 
 /// The curves of one page at the page's own zoom, up to the end of the run.
@@ -335,7 +334,7 @@ pub struct Results {
     /// Verdict of the reference run: the event solver with push-only contact on the same scene.
     pub reference: Option<Verdict>,
     /// The run under the other contact law.
-    pub comparison: Option<FullRun>,
+    pub comparison: Option<Arc<FullRun>>,
     /// Results of the studies.
     pub found: Found,
     /// The studies that have been running for a while.

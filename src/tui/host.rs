@@ -1,4 +1,4 @@
-//! What the event loop needs besides a backend: job control, clipboard, mouse and files.
+//! What the event loop needs besides a backend: job control, clipboard and files.
 
 use std::io::Result;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -34,23 +34,6 @@ pub trait Host {
     fn line(&self) -> Line {
         Line::Auto
     }
-    /// Returns the number of bytes sent to the terminal so far.
-    fn sent(&self) -> u64 {
-        0
-    }
-    /// Returns whether any write had to wait for the terminal.
-    fn is_slow(&self) -> bool {
-        false
-    }
-    /// Returns whether the last frame was abandoned; then the whole screen must be drawn again.
-    fn is_torn(&mut self) -> bool {
-        false
-    }
-    /// Says before a frame whether `q` is typed into a text; otherwise it quits, and no frame keeps
-    /// it waiting.
-    fn typing(&mut self, _: bool) {}
-    /// Switches the terminal's mouse reports on or off.
-    fn mouse(&mut self, _: bool) {}
     /// Writes a file. `None` means that the event with the result will arrive.
     fn write(&mut self, job: FileJob) -> Option<ScreenEvent>;
     /// Reads the scenes of a directory. `None` means that the event with them will arrive.
@@ -106,27 +89,6 @@ impl Host for Shell {
 
     fn line(&self) -> Line {
         self.line
-    }
-
-    fn sent(&self) -> u64 {
-        terminal::sent()
-    }
-
-    fn is_slow(&self) -> bool {
-        terminal::is_slow()
-    }
-
-    fn is_torn(&mut self) -> bool {
-        terminal::take_torn()
-    }
-
-    fn typing(&mut self, typing: bool) {
-        terminal::set_typing(typing);
-    }
-
-    fn mouse(&mut self, on: bool) {
-        // If the terminal is gone, the next frame fails and ends the program.
-        let _ = terminal::set_mouse(on);
     }
 
     fn write(&mut self, job: FileJob) -> Option<ScreenEvent> {

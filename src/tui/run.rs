@@ -17,7 +17,7 @@ use super::events::ScreenEvent;
 use super::files::FileResult;
 use super::host::Host;
 use super::line::Throttle;
-use super::panels;
+use super::{panels, terminal};
 
 /// How the explorer ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +106,7 @@ impl Due {
 /// # Errors
 /// Fails if the terminal cannot be written to.
 pub fn run<B: Backend>(
-    terminal: &mut Terminal<B>,
+    screen: &mut Terminal<B>,
     events: &Receiver<ScreenEvent>,
     app: &mut App,
     engine: &mut dyn Engine,
@@ -120,9 +120,9 @@ pub fn run<B: Backend>(
     let mut again = false;
     let mut answer: Option<Instant> = None;
     // What is computed depends on what is shown.
-    let size = terminal.size()?;
+    let size = screen.size()?;
     app.layout.size = (size.width, size.height);
-    let mut throttle = Throttle::new(host.line(), Instant::now(), host.sent());
+    let mut throttle = Throttle::new(host.line(), Instant::now(), terminal::sent());
     loop {
         order(app, engine, &mut ordered);
         let wait = drawn.map_or(Duration::ZERO, |at| due.pause(frame).saturating_sub(at.elapsed()));
@@ -132,7 +132,7 @@ pub fn run<B: Backend>(
             Ok(event) => Some(event),
             Err(RecvTimeoutError::Timeout) => None,
             Err(RecvTimeoutError::Disconnected) => {
-                show(terminal, app, engine, host)?;
+                show(screen, app, engine, host)?;
                 return Ok(Exit::Done);
             }
         };
@@ -167,15 +167,15 @@ pub fn run<B: Backend>(
             if std::mem::take(&mut again) {
                 // `Terminal::clear` would ask for the cursor position, and its answer would wait
                 // for the input thread.
-                let size = terminal.size()?;
-                terminal.resize(size.into())?;
+                let size = screen.size()?;
+                screen.resize(size.into())?;
             }
-            show(terminal, app, engine, host)?;
+            show(screen, app, engine, host)?;
             answer = None;
             let now = Instant::now();
-            throttle.spend(host.sent(), due == Due::Now, host.is_slow(), now);
+            throttle.spend(terminal::sent(), due == Due::Now, terminal::is_slow(), now);
             drawn = Some(now);
-            again = host.is_torn();
+            again = terminal::take_torn();
             due = if again { Due::Now } else { Due::Later };
         }
     }
@@ -207,16 +207,16 @@ fn look(app: &mut App, engine: &mut dyn Engine) -> Due {
 }
 
 fn show<B: Backend>(
-    terminal: &mut Terminal<B>,
+    screen: &mut Terminal<B>,
     app: &mut App,
     engine: &mut dyn Engine,
     host: &mut dyn Host,
 ) -> Result<(), B::Error> {
     look(app, engine);
-    let size = terminal.size()?;
+    let size = screen.size()?;
     app.layout.size = (size.width, size.height);
-    host.typing(lookup(app.keyboard(), Chord::from('q')).is_none());
-    terminal.draw(|frame| panels::draw(frame, app))?;
+    terminal::set_typing(lookup(app.keyboard(), Chord::from('q')).is_none());
+    screen.draw(|frame| panels::draw(frame, app))?;
     engine.drawn();
     // A screen that is too small shows only a note about its size, and no message.
     if size.width >= LEAST_WIDTH && size.height >= LEAST_HEIGHT {
@@ -270,7 +270,8 @@ fn take(effect: Effect, app: &mut App, host: &mut dyn Host) -> Reaction {
         Effect::Redraw => return Reaction::Redraw,
         Effect::None => None,
         Effect::Mouse(on) => {
-            host.mouse(on);
+            // If the terminal is gone, the next frame fails and ends the program.
+            let _ = terminal::set_mouse(on);
             None
         }
         Effect::Copy(text) => {

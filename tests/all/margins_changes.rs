@@ -15,7 +15,7 @@ fn pushes_only(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
 fn asked(scene: &CheckedScene) -> Margins {
     let mut margins = Margins::of(scene);
     let mut known = 0;
-    margins.ask_runs(&to_the_end, &mut |_| known += 1).unwrap();
+    margins.ask_runs(true, &to_the_end, &mut |_| known += 1).unwrap();
     assert_eq!(known, Margins::rows_asked(scene));
     margins
 }

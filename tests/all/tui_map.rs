@@ -94,7 +94,7 @@ fn a_cell_opens_the_run_it_shows_and_undo_brings_the_other_back() {
         let Some(FullRunState::Done(run)) = &session.app.run.latest.results.full_run else {
             panic!("no run")
         };
-        assert_eq!((run.verdict, direct), (Verdict::Adhesive, Verdict::Adhesive));
+        assert_eq!((run.facts.verdict, direct), (Verdict::Adhesive, Verdict::Adhesive));
         assert_eq!(session.app.knobs.live, live);
         assert!(
             session

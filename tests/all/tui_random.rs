@@ -41,11 +41,11 @@ impl Engine for Late {
             let Snapshot { number, results, .. } = &mut snapshot;
             let Results { full_run, comparison, .. } = results;
             let full_run = match full_run {
-                Some(FullRunState::Done(run)) => Some(&mut **run),
+                Some(FullRunState::Done(run)) => Some(run),
                 _ => None,
             };
-            let results = [full_run, comparison.as_mut()];
-            results.into_iter().flatten().for_each(|result| result.facts.touches = *number);
+            let results = [full_run, comparison.as_mut()].into_iter().flatten();
+            results.for_each(|run| std::sync::Arc::make_mut(run).facts.touches = *number);
             self.kept.push_back(snapshot);
         }
         if self.kept.len() > DELAY { self.kept.pop_front() } else { None }
@@ -57,7 +57,7 @@ impl Engine for Late {
 fn results(app: &App) -> Vec<u64> {
     let Results { full_run, comparison, reference, .. } = &app.run.latest.results;
     let full_run = match full_run {
-        Some(FullRunState::Done(run)) => Some(&**run),
+        Some(FullRunState::Done(run)) => Some(run),
         _ => None,
     };
     let shown = [full_run, comparison.as_ref()];

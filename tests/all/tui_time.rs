@@ -86,17 +86,17 @@ fn the_copied_command_repeats_live_changes_at_their_instants() {
         session.press_each(" ");
         session.press_each(" p");
         session.press_each("\n505\n");
-        let app = &session.app;
-        let command = app.command_line().to_string();
+        let command = session.app.command_line().to_string();
         assert_eq!(command.matches(" --at ").count(), 3, "{command}");
-        let run = app.full_run().unwrap();
+        let run = session.app.full_run().unwrap();
         assert!(!command.contains('\''), "{command}");
         let report = json(&words(&format!("{command} --json"))[1..]);
         let outcome = &report["outcome"];
-        assert_eq!(outcome["verdict"].as_str().unwrap(), run.verdict.as_ref(), "{command}");
+        assert_eq!(outcome["verdict"].as_str().unwrap(), run.facts.verdict.as_ref(), "{command}");
         assert_eq!(report["impact_count"].as_u64().unwrap(), run.facts.touches, "{command}");
-        let [end, _] = run.end.u;
         let last = report["final"]["u_c_m"].as_f64().unwrap();
+        session.press_each(":end\n");
+        let [end, _] = session.app.shown().unwrap().state.u;
         // The same instants, but for the step in which a change comes.
         assert!((end - last).abs() < 1e-9, "{name}: {end} {last}");
     }

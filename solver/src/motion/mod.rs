@@ -33,8 +33,8 @@ pub use failure::{Failure, FailureReason};
 use plane::{Plane, across, dot, size};
 pub use propagator::FreeFlight;
 pub use report::{
-    FinalState, ImpactReport, LAST_PART, RunReport, Seen, SolverReport, VerdictReached, caught_at,
-    judge_end, lock_that_broke, verdict_of,
+    FinalState, ImpactReport, LAST_PART, RunReport, Seen, SolverReport, VerdictReached, judge_end,
+    verdict_of,
 };
 pub use run::{Sample, Sampling, run_to_end, run_to_verdict, simulate};
 pub use script::{Change, Script, Scripted};

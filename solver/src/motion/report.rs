@@ -137,8 +137,7 @@ pub struct Seen {
 impl Seen {
     /// Returns what the end of a motion with this verdict has shown; `None` if the verdict is
     /// proved, if it decays and no contact can come, and if the run failed or diverged.
-    #[must_use]
-    pub fn at_end(motion: &Motion, verdict: Verdict, window: f64) -> Option<Self> {
+    fn at_end(motion: &Motion, verdict: Verdict, window: f64) -> Option<Self> {
         let rests = motion.over() || motion.rest_rate().is_some_and(|rate| rate > 0.0);
         if matches!(verdict, Verdict::Failed | Verdict::Divergent)
             || motion.final_verdict() == Some(verdict)
@@ -263,6 +262,16 @@ fn decay_rate(motion: &Motion, verdict: Verdict) -> Option<f64> {
     motion.rest_rate().or_else(free)
 }
 
+impl RunReport {
+    /// Collects the report of a motion that has come to `end` \[s\], under the parameters of
+    /// `scene`; the speed of a slipping wave is not in it.
+    #[must_use]
+    pub fn at_end(scene: &CheckedScene, motion: &Motion, end: f64) -> Self {
+        let scene = scene.perturbed(|scene| scene.solver.end_s = end);
+        report(&scene, motion, &WaveTracker::over(&scene))
+    }
+}
+
 /// Collects the report of a motion at the end of its run.
 pub(super) fn report(scene: &CheckedScene, motion: &Motion, wave: &WaveTracker) -> RunReport {
     let machine = motion.machine();
@@ -378,7 +387,7 @@ fn in_one_step(scene: &CheckedScene, motion: &Motion, rest: Option<f64>) -> Opti
 /// Returns the longest hold of a corner that ended during the run, and the rotor speed when it
 /// ended \[rad/s\]; `None` if no hold lasted for at least a casing period, or if the speed was
 /// changed after that.
-pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
+fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
     let period = TAU / motion.machine().omega_c;
     let hold = motion.contacts().longest_hold.filter(|hold| hold.length() >= period)?;
     Some((hold, motion.rotor().known_speed(hold.ended)?))
@@ -387,7 +396,7 @@ pub fn lock_that_broke(motion: &Motion) -> Option<(Hold, f64)> {
 /// Returns the rotor speed at which the present contact began \[rad/s\], and whether the rotor
 /// accelerates; `None` without a speed ramp, for a contact since the start of the run, and if speed
 /// or ramp were changed after the contact began.
-pub fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
+fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
     let (since, ramp) = (motion.contacts().since, motion.rotor().ramp());
     let speed = motion.rotor().known_speed(since)?;
     (ramp != 0.0 && since > 0.0).then_some((speed, ramp * speed > 0.0))

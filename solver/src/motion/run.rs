@@ -72,7 +72,11 @@ pub(super) fn run_motion_to_verdict(
     while verdict.is_none() {
         looks += 1;
         let until = (looks as f64 * interval).min(end);
-        verdict = match advance_following(&mut scripted, wave.as_deref_mut(), until, go_on) {
+        let reached = match wave.as_deref_mut() {
+            None if until < end => scripted.approach(until, go_on),
+            wave => advance_following(&mut scripted, wave, until, go_on),
+        };
+        verdict = match reached {
             Err(_) => scripted.motion.final_verdict().or(Some(Verdict::Failed)),
             Ok(false) => return None,
             Ok(true) if until >= end => Some(verdict_of(&scripted.motion, LAST_PART * end)),

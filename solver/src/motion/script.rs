@@ -150,6 +150,19 @@ impl Scripted {
     /// # Errors
     /// The run has failed, now or before.
     pub fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        Ok(self.apply_due(until, go_on)? && self.motion.advance_while(until, go_on)?)
+    }
+
+    /// As [`advance_while`](Self::advance_while), with [`approach`](super::Solver::approach) after
+    /// the changes.
+    ///
+    /// # Errors
+    /// The run has failed, now or before.
+    pub fn approach(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        Ok(self.apply_due(until, go_on)? && self.motion.approach(until, go_on)?)
+    }
+
+    fn apply_due(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
         while let Some((t, change)) = self.script.changes.get(self.applied)
             && *t <= until
         {
@@ -159,7 +172,7 @@ impl Scripted {
             self.motion.apply(change);
             self.applied += 1;
         }
-        self.motion.advance_while(until, go_on)
+        Ok(true)
     }
 
     /// Returns whether all changes have been applied.

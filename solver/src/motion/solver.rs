@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
-use super::explicit::Explicit;
+use super::explicit::{Explicit, turned};
 use super::{
     Checks, ContactLog, EnergyAccount, Events, Failure, FailureReason, Plane, Pulse, Rotor, State,
     Verdict,
@@ -40,6 +40,16 @@ pub trait Solver: Debug + Send + Sync {
     /// As [`advance`](Self::advance).
     fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure>;
 
+    /// As [`advance_while`](Self::advance_while), but may stop before `until` where nothing but the
+    /// state changes from there to `until`: no contact, and no verdict. It costs less than to look at
+    /// the motion at `until`.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    fn approach(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        self.advance_while(until, go_on)
+    }
+
     /// Returns the time; for the explicit solver that of its latest step \[s\]. Costs nothing,
     /// whereas [`state`](Self::state) may have to compute a power of a matrix.
     fn t_s(&self) -> f64;
@@ -69,7 +79,7 @@ pub trait Solver: Debug + Send + Sync {
         let rise = machine.radial_coupling * machine.blade_length;
         let gap = |(blade, angle): (u32, f64)| {
             let (c, s) = polygon.direction(polygon.side_of_blade(blade));
-            let normal = Plane::new(c, s) * Plane::cis(diameters * angle);
+            let normal = turned(Plane::new(c, s), diameters * angle);
             let unevenness = machine.uneven_at(blade - 1, theta + angle);
             machine.clearance() + unevenness + (z * normal.conj()).re - rise * angle
         };

@@ -72,7 +72,7 @@ impl App {
         let number = |path: &str| knob_of(path)?.number(&self.scene);
         match condition {
             Condition::Verdict(word) => {
-                let now = self.full_run().map(|run| run.verdict);
+                let now = self.full_run().map(|run| run.facts.verdict);
                 now.is_some() && now == word.parse().ok()
             }
             Condition::View(word) => ViewId::from_word(word) == Some(self.view()),

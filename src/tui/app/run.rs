@@ -116,6 +116,7 @@ impl App {
             map: self.map_choice(),
             cell: self.cell_in(ViewId::Map),
             range: self.layout.range,
+            every_law: !self.is_overview(),
         }
     }
 

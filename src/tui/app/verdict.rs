@@ -25,7 +25,7 @@ impl App {
 
     /// Returns the verdict; `None` until the run is complete or its verdict is proved.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.full_run().map(|run| run.verdict).or(self.results().verdict)
+        self.results().verdict
     }
 
     /// Returns whether the run was given up because it takes too long.
@@ -60,7 +60,7 @@ impl App {
     /// Returns the verdict in capitals, which may be proved before the end of the run; `None` if it
     /// is not known.
     fn proved(&self) -> Option<String> {
-        Some(self.results().verdict?.as_ref().to_uppercase())
+        Some(self.verdict()?.as_ref().to_uppercase())
     }
 
     /// Returns the headline while the run is computed: a proved verdict, or the latest older
@@ -125,7 +125,7 @@ impl App {
     pub fn state_now(&self) -> String {
         let Some(moment) = self.shown() else { return "starting".into() };
         if moment.failure.is_some() {
-            let grown = self.full_run().is_some_and(|run| run.verdict == Verdict::Divergent);
+            let grown = self.full_run().is_some_and(|run| run.facts.verdict == Verdict::Divergent);
             return if grown { "diverged" } else { "failed" }.into();
         }
         if self.has_lining() && moment.active_set == ActiveSet::Many {

@@ -19,7 +19,9 @@ pub const PER_TURN: f64 = 24.0;
 /// The requested page, and the latest one that was computed.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// The latest request; `None` before the first.
+    /// First and last time of the latest page requested, and the end of its computation \[s\].
+    wanted: Option<((f64, f64), f64)>,
+    /// The computation; `None` before the first request, and once it is complete or given up.
     job: Option<PageJob>,
     /// The latest page that was computed, which may be an earlier one, as far as it is computed.
     pub done: Option<Arc<PageRecord>>,
@@ -31,8 +33,6 @@ struct PageJob {
     page: (f64, f64),
     /// End of the computation \[s\].
     until: f64,
-    /// Whether it is neither complete nor given up.
-    is_due: bool,
     /// The motion; `None` before it begins, and after the end.
     at: Option<Scripted>,
     /// The bins; `None` before the start of the page.
@@ -45,29 +45,21 @@ impl Page {
     /// was the last one requested.
     pub fn want(&mut self, page: (f64, f64), end: f64) {
         let until = page.1.min(end);
-        if self.job.as_ref().is_none_or(|job| (job.page, job.until) != (page, until)) {
+        let wanted = Some((page, until));
+        if std::mem::replace(&mut self.wanted, wanted) != wanted {
             let (at, recorder, wall) = (None, None, Duration::ZERO);
-            self.job = Some(PageJob { page, until, is_due: true, at, recorder, wall });
+            self.job = Some(PageJob { page, until, at, recorder, wall });
         }
-    }
-
-    fn due(&self) -> Option<&PageJob> {
-        self.job.as_ref().filter(|job| job.is_due)
     }
 
     /// Returns whether no page is to be computed.
     pub fn is_done(&self) -> bool {
-        self.due().is_none()
+        self.job.is_none()
     }
 
-    /// Returns the start of the page that is to be computed \[s\].
-    pub fn due_from(&self) -> Option<f64> {
-        self.due().map(|job| job.page.0)
-    }
-
-    /// Returns whether the page that is to be computed has begun.
-    pub fn has_begun(&self) -> bool {
-        self.due().is_some_and(|job| job.at.is_some())
+    /// Returns the start of the page that is to be computed \[s\], and whether it has begun.
+    pub fn due(&self) -> Option<(f64, bool)> {
+        self.job.as_ref().map(|job| (job.page.0, job.at.is_some()))
     }
 
     /// Advances the page by one slice of wall-clock time; it begins with `from`, a motion at or
@@ -83,13 +75,13 @@ impl Page {
             self.done = Some(Arc::new(PageRecord { page: job.page, bins, is_whole }));
         }
         if is_whole || job.wall >= FORECAST_LIMIT {
-            (job.at, job.recorder, job.is_due) = (None, None, false);
+            self.job = None;
         }
     }
 
     /// Returns the wall-clock time spent on the page being computed; 0 if there is none.
     pub fn wall(&self) -> Duration {
-        self.due().map_or(Duration::ZERO, |job| job.wall)
+        self.job.as_ref().map_or(Duration::ZERO, |job| job.wall)
     }
 }
 

@@ -11,8 +11,7 @@ use crate::sheet::sentence::Facts;
 use crate::tui::engine::{FORECAST_LIMIT, FullRun, FullRunState, SLICE};
 use crate::tui::trace::{Mark, Marks};
 use rubscope_solver::motion::{
-    LAST_PART, Motion, Scripted, Seen, Verdict, VerdictReached, caught_at, judge_end,
-    lock_that_broke,
+    GoOn, LAST_PART, Motion, RunReport, Scripted, Verdict, VerdictReached, judge_end,
 };
 
 /// A film, computed up to some instant.
@@ -25,8 +24,8 @@ pub struct Film {
     /// Time up to which the film is computed, where the explicit solver may be at its last step
     /// before \[s\].
     reached: f64,
-    /// `u_c` and `u_s` \[m\] at the start of the last part and at equal intervals after it.
-    points: Vec<[f64; 2]>,
+    /// Number of samples of the last part, of which its start is the first.
+    samples: u32,
     marks: Marks,
     copies: Copies,
     /// Wall-clock time spent on the last part and what was missing before it.
@@ -40,18 +39,21 @@ pub struct Film {
     /// The verdict proved before the end; `None` until then.
     proved: Option<Verdict>,
     /// The result; `None` until the film is complete.
-    pub result: Option<FullRun>,
+    pub result: Option<Arc<FullRun>>,
     /// The page of time whose curves are recorded.
     pub page: Page,
 }
 
-/// Intervals of the last part, enough for its spectrum.
+/// Intervals of the last part, at whose ends the log of contacts is read; enough for its spectrum.
 const SAMPLES: u32 = 2048;
 
 impl Film {
     /// Creates a film at the start of its scene.
     pub fn new(plan: FilmPlan) -> Self {
-        let ahead = Scripted::new(Motion::new(&plan.scene), &plan.script);
+        let mut motion = Motion::new(&plan.scene);
+        // No screen shows them, and they cost more than the motion.
+        motion.forgo_checks();
+        let ahead = Scripted::new(motion, &plan.script);
         let mut copies = Copies::default().under(&plan.script, 0, plan.end_s - plan.from_s);
         copies.push(&ahead);
         let marks = Marks::from(ahead.motion.contacts());
@@ -59,9 +61,9 @@ impl Film {
     }
 
     fn going_on(plan: FilmPlan, ahead: Scripted, copies: Copies, marks: Marks) -> Self {
-        let mut film = Self {
+        Self {
             reached: ahead.motion.t_s(),
-            points: Vec::new(),
+            samples: u32::from(ahead.motion.t_s() >= plan.from_s),
             wall: Duration::ZERO,
             slice: SLICE,
             limit: FORECAST_LIMIT,
@@ -73,11 +75,7 @@ impl Film {
             ahead,
             marks,
             copies,
-        };
-        if film.reached >= film.plan.from_s {
-            film.points.push(film.ahead.motion.state().u);
         }
-        film
     }
 
     /// Returns the film of another plan, which keeps what both have in common. `head` is a motion
@@ -112,7 +110,11 @@ impl Film {
         let mut reached = Ok(true);
         while reached == Ok(true) && !self.is_through() && go_on() {
             let sample = self.next_sample();
-            reached = self.ahead.advance_while(sample, &go_on);
+            reached = if sample < self.plan.end_s {
+                self.ahead.approach(sample, &go_on)
+            } else {
+                self.ahead.advance_while(sample, &go_on)
+            };
             if reached == Ok(true) {
                 self.reached = sample;
                 self.take_sample();
@@ -120,13 +122,13 @@ impl Film {
         }
         self.wall += began.elapsed();
         if reached.is_err() || self.is_through() {
-            self.result = Some(self.finished());
+            self.result = Some(Arc::new(self.finished()));
         }
     }
 
     /// Returns whether all samples are taken.
     fn is_through(&self) -> bool {
-        self.points.len() > SAMPLES as usize
+        self.samples > SAMPLES
     }
 
     /// Returns the time of the next sample \[s\]; before the last part, samples only collect marks
@@ -134,7 +136,7 @@ impl Film {
     fn next_sample(&self) -> f64 {
         let FilmPlan { from_s, end_s, .. } = self.plan;
         let length = end_s - from_s;
-        match self.points.len() as u32 {
+        match self.samples {
             0 => (self.reached + length / f64::from(SAMPLES)).min(from_s),
             SAMPLES.. => end_s,
             taken => from_s + f64::from(taken) / f64::from(SAMPLES) * length,
@@ -143,23 +145,30 @@ impl Film {
 
     fn take_sample(&mut self) {
         self.marks.look(self.ahead.motion.contacts());
-        if self.points.is_empty() && self.reached >= self.plan.from_s {
+        if self.samples == 0 && self.reached >= self.plan.from_s {
             // A change at the same instant, or one soon after it, goes on from here.
             self.copies.push(&self.ahead);
-            self.points.push(self.ahead.motion.state().u);
+            self.samples = 1;
             return;
         }
         self.copies.follow(&self.ahead);
-        if !self.points.is_empty() {
-            self.points.push(self.ahead.motion.state().u);
+        if self.samples > 0 {
+            self.samples += 1;
             self.proved = self.proved.or_else(|| self.proof());
         }
     }
 
-    /// Returns `u_c` and `u_s` of the casing at equal intervals after the start of the last part,
-    /// so far \[m\].
-    pub fn signal(&self) -> Vec<[f64; 2]> {
-        self.points.iter().skip(1).copied().collect()
+    /// Computes `u_c` and `u_s` of the casing at equal intervals after the start of the last part
+    /// \[m\], as far as `go_on` lets it.
+    pub fn signal(&self, go_on: GoOn<'_>) -> Vec<[f64; 2]> {
+        let FilmPlan { from_s, end_s, .. } = self.plan;
+        let mut at = self.before(from_s).unwrap_or(&self.ahead).clone();
+        let interval = (end_s - from_s) / f64::from(SAMPLES);
+        let sample = |k| {
+            let reached = at.advance_while(from_s + f64::from(k) * interval, go_on);
+            (reached == Ok(true)).then(|| at.motion.state().u)
+        };
+        (1..=SAMPLES).map_while(sample).collect()
     }
 
     /// Returns the latest known motion at or before `t` \[s\].
@@ -189,62 +198,37 @@ impl Film {
     /// Returns the outcome with which the sensitivity check compares changed runs; `None` until the
     /// film is complete.
     pub fn verdict_reached(&self) -> Option<VerdictReached> {
-        Some(VerdictReached::of(&self.ahead.motion, self.result.as_ref()?.verdict))
+        Some(VerdictReached::of(&self.ahead.motion, self.result.as_ref()?.facts.verdict))
     }
 
     /// Returns the verdict; `None` until the film is complete or its verdict is proved.
     pub fn verdict(&self) -> Option<Verdict> {
-        self.result.as_ref().map(|run| run.verdict).or(self.proved)
-    }
-
-    /// Returns the length of the part of the run, at its end, that the verdict describes \[s\].
-    fn window(&self) -> f64 {
-        LAST_PART * self.plan.end_s
+        self.result.as_ref().map(|run| run.facts.verdict).or(self.proved)
     }
 
     /// Returns the proved verdict if judging the run now would give the same; `None` otherwise, and
     /// while nothing is proved.
     fn proof(&self) -> Option<Verdict> {
         let motion = &self.ahead.motion;
-        let end = || judge_end(motion, &motion.checks(), self.window()).0;
+        let end = || judge_end(motion, &motion.checks(), LAST_PART * self.plan.end_s).0;
         motion.final_verdict().filter(|proved| *proved == end())
     }
 
     fn finished(&self) -> FullRun {
-        let motion = &self.ahead.motion;
-        let log = motion.contacts();
-        let checks = motion.checks();
-        let (verdict, failure) = judge_end(motion, &checks, self.window());
-        let broken = lock_that_broke(motion);
-        let scene = self.plan.scene_at(self.plan.end_s);
-        let machine = scene.machine();
-        let contacts = motion.multipliers().into_iter();
-        let contacts = contacts.map(|(side, force)| (machine.first_of_side(side), force));
-        let end = (&**scene, &machine, motion.rotor().speed(motion.t_s()));
-        let facts = Facts {
-            touches: log.impact_count,
-            broken: broken.map(|(_, speed)| speed),
-            caught: caught_at(motion),
-            pulled: checks.tensile_steps > 0,
-            seen: Seen::at_end(motion, verdict, self.window()),
-            still: motion.state().amplitude() == 0.0,
-            failure,
-            ..Facts::at(verdict, end, contacts)
-        };
+        let end_s = self.plan.end_s;
+        let report = RunReport::at_end(self.plan.scene_at(end_s), &self.ahead.motion, end_s);
         FullRun {
-            end: motion.state(),
-            marks: Arc::new(self.marks.seen.clone()),
-            broken,
-            facts,
-            verdict,
-            since: verdict.keeps_contact().then_some(log.since),
+            marks: self.marks.seen.clone(),
+            broken: report.broken.map(|(hold, _)| hold),
+            locked_s: report.outcome.lock_time_s,
+            facts: Facts::of(&report),
         }
     }
 
     /// Returns the progress, or the result.
     pub fn state(&self) -> FullRunState {
         if let Some(run) = &self.result {
-            return FullRunState::Done(Box::new(run.clone()));
+            return FullRunState::Done(Arc::clone(run));
         }
         let FilmPlan { from_s, end_s, .. } = self.plan;
         let part = ((self.ahead.motion.t_s() - from_s) / (end_s - from_s)).clamp(0.0, 1.0);
@@ -282,13 +266,13 @@ impl Film {
     /// be.
     pub fn has_page_due(&self) -> bool {
         let is_known = |from: f64| self.reach() >= from || self.is_done();
-        self.page.due_from().is_some_and(is_known)
+        self.page.due().is_some_and(|(from, _)| is_known(from))
     }
 
     /// Computes a slice of the page.
     pub fn compute_page(&mut self) {
-        let from = self.page.due_from().filter(|_| !self.page.has_begun());
-        let from = from.and_then(|from| self.before(from).cloned());
+        let from = self.page.due().filter(|(_, has_begun)| !has_begun);
+        let from = from.and_then(|(from, _)| self.before(from).cloned());
         self.page.compute(from, self.plan.scene.solver.step_s);
     }
 }
@@ -337,7 +321,7 @@ mod tests {
             }
             let proved = film.verdict();
             assert!(matches!(film.state(), FullRunState::Computing(_)), "{name}");
-            assert_eq!(film.computed().result.map(|run| run.verdict), proved, "{name}");
+            assert_eq!(film.computed().result.map(|run| run.facts.verdict), proved, "{name}");
         }
     }
 
@@ -384,8 +368,7 @@ mod tests {
                 let whole = Film::new(now.clone()).computed();
                 assert_eq!(film.ahead.motion.state(), whole.ahead.motion.state(), "{name}");
                 let [own, other] = [&film, &whole].map(|film| film.result.as_ref().unwrap());
-                assert_eq!(own.verdict, other.verdict, "{name}");
-                assert_eq!(own.end, other.end, "{name}");
+                assert_eq!(own.facts.verdict, other.facts.verdict, "{name}");
                 assert_eq!(own.facts.touches, other.facts.touches, "{name}");
             }
             assert_eq!(now.script.changes().iter().filter(|(t, _)| *t < 2.5e-3).count(), 0);

@@ -264,11 +264,10 @@ fn end(app: &App) -> Vec<Part> {
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
     let known = !app.results().sensitive.known().sensitive;
-    let held = run.since.filter(|_| known && run.verdict.is_held());
-    let broken = run.broken.filter(|_| known && run.since.is_none());
+    let held = run.locked_s.filter(|_| known);
+    let broken = run.broken.filter(|_| known && !run.facts.verdict.keeps_contact());
     let since = held.map(|t| (" ", format!("since {}", readable(t, "s"))));
-    let until =
-        broken.map(|(hold, _)| ("", format!(", locked until {}", readable(hold.ended, "s"))));
+    let until = broken.map(|hold| ("", format!(", locked until {}", readable(hold.ended, "s"))));
     parts.extend(since.or(until).map(|(gap, text)| piece(6, gap, text)));
     parts
 }

@@ -161,9 +161,9 @@ fn both_laws(app: &App, buffer: &mut Buffer, at: ViewArea) {
         if at.area.width >= SIDE_BY_SIDE_FROM { at.columns() } else { at.rows(50) };
     let law = app.scene.solver.contact;
     let own = Page::casing(format!("{}: {}", law, app.verdict_word()), app);
-    let comparison = app.results().comparison.as_ref();
-    let word =
-        comparison.map_or("...".to_string(), |outcome| outcome.verdict.as_ref().to_uppercase());
+    let comparison = app.results().comparison.as_deref();
+    let word = comparison
+        .map_or("...".to_string(), |outcome| outcome.facts.verdict.as_ref().to_uppercase());
     let theirs = Page {
         record: app.recorded(app.results().comparison_page.as_deref()),
         forecast: comparison,

@@ -120,10 +120,8 @@ fn a_change_acts_on_both_laws_at_its_instant_and_undo_takes_it_away() {
     let mut playback = computed(&order);
     let results = |playback: &mut Playback| {
         let results = playback.snapshot().results;
-        let crate::tui::engine::FullRunState::Done(own) = results.full_run.unwrap() else {
-            panic!("the film is computed");
-        };
-        [own.end, results.comparison.unwrap().end]
+        let pages = [results.page, results.comparison_page];
+        pages.map(|page| page.unwrap().bins.last().unwrap().high)
     };
     let before = results(&mut playback);
     playback.play(2e-3, false);
@@ -131,7 +129,7 @@ fn a_change_acts_on_both_laws_at_its_instant_and_undo_takes_it_away() {
     let fired = unchanged.fired(2e-3);
     refilmed(&mut playback, &mut order, fired);
     for (fired, before) in results(&mut playback).iter().zip(&before) {
-        assert!(fired.t_s > before.t_s && fired.u != before.u);
+        assert!(fired != before);
     }
     assert_eq!(playback.t, 2e-3);
     refilmed(&mut playback, &mut order, unchanged);

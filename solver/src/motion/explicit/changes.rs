@@ -86,7 +86,7 @@ impl Explicit {
     /// Discards cached data that a new state makes invalid.
     pub(super) fn forget(&mut self) {
         self.strides.forget();
-        self.stride_began = None;
+        self.stride = None;
         self.changed = self.n;
         self.rest = OnceLock::new();
     }

@@ -40,6 +40,7 @@ use lining::Lining;
 use oscillator::{Coordinate, Oscillator};
 use record::{Ledger, Record};
 use rest::Rest;
+pub(super) use row::turned;
 use row::{Row, TipLaw, Tips};
 use step::LONG_STEP;
 use strides::{Stride, Strides};
@@ -87,8 +88,9 @@ pub(super) struct Explicit {
     /// The linear motion about rest at this speed, once asked for.
     rest: OnceLock<Option<Rest>>,
     strides: Strides,
-    /// The stride that contains the latest step, and the motion at its start.
-    stride_began: Option<Box<(Explicit, Stride)>>,
+    /// The stride that contains the latest step, and the motion at its start; or the stride that
+    /// begins at the latest step, alone.
+    stride: Option<(Stride, Option<Box<Explicit>>)>,
     /// Step of the latest change during the run.
     changed: u64,
     /// Number of steps that were not computed one by one, but many at once by strides.
@@ -138,7 +140,7 @@ impl Explicit {
             next_look: 0,
             rest: OnceLock::new(),
             strides: Strides::default(),
-            stride_began: None,
+            stride: None,
             changed: 0,
             skipped: 0,
             failure: None,

@@ -225,7 +225,7 @@ impl Tips {
 
 /// Returns a direction turned by a small blade phase, exact to round-off.
 #[inline(always)]
-pub(super) fn turned(direction: Plane, phase: f64) -> Plane {
+pub(in crate::motion) fn turned(direction: Plane, phase: f64) -> Plane {
     let q = phase * phase;
     let (sin, cos) = if phase.abs() < SMALL_PHASE {
         (phase * (1.0 - q * (1.0 / 6.0)), 1.0 - 0.5 * q)

@@ -1,6 +1,5 @@
 //! The common solver interface of the explicit solver: advance, observe, change.
 
-use super::strides::Stride;
 use super::{Coordinate, Disk, Explicit};
 use crate::model::Machine;
 use crate::motion::{
@@ -32,23 +31,9 @@ impl Explicit {
         })
     }
 
-    /// Goes to a step inside of a stride or at its end.
-    fn look_into(&mut self, stride: Stride, target: u64) {
-        let began = self.clone();
-        self.see_stride(&stride, target - self.n);
-        self.stride_began = Some(Box::new((began, stride)));
-    }
-
-    /// Returns to the start of the stride that contains the latest step; forces already reported stay
-    /// reported.
-    fn go_back(&mut self, mut began: Self) {
-        began.record.keep_told(&mut self.record);
-        *self = began;
-    }
-}
-
-impl Solver for Explicit {
-    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+    /// Advances to `until` or, unless it `looks` into the stride that contains `until`, to the start
+    /// of that stride.
+    fn go_to(&mut self, until: f64, looks: bool, go_on: GoOn<'_>) -> Result<bool, Failure> {
         if let Some(failure) = &self.failure {
             return Err(failure.clone());
         }
@@ -58,10 +43,13 @@ impl Solver for Explicit {
             return Ok(true);
         }
         let mut begun = None;
-        if let Some(looked_into) = self.stride_began.take() {
-            let (began, stride) = *looked_into;
-            self.go_back(began);
+        if let Some((stride, began)) = self.stride.take() {
             begun = Some(stride);
+            if let Some(mut began) = began {
+                // Forces already reported stay reported.
+                began.record.keep_told(&mut self.record);
+                *self = *began;
+            }
         }
         let steps_unasked = UPDATES_UNASKED / (2 + self.disk.coordinates());
         let mut unasked = 0;
@@ -78,11 +66,29 @@ impl Solver for Explicit {
                 Some(stride) if self.n + stride.steps < target => {
                     self.take_stride(&stride, stride.steps);
                 }
-                Some(stride) => self.look_into(stride, target),
+                Some(stride) if looks => {
+                    let began = Box::new(self.clone());
+                    self.see_stride(&stride, target - self.n);
+                    self.stride = Some((stride, Some(began)));
+                }
+                Some(stride) => {
+                    self.stride = Some((stride, None));
+                    break;
+                }
                 None => self.take_one()?,
             }
         }
         Ok(true)
+    }
+}
+
+impl Solver for Explicit {
+    fn advance_while(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        self.go_to(until, true, go_on)
+    }
+
+    fn approach(&mut self, until: f64, go_on: GoOn<'_>) -> Result<bool, Failure> {
+        self.go_to(until, false, go_on)
     }
 
     fn t_s(&self) -> f64 {
@@ -197,7 +203,9 @@ impl Solver for Explicit {
     }
 
     fn forgo_checks(&mut self) {
-        self.stride_began = None;
+        if let Some((_, Some(began))) = &mut self.stride {
+            began.forgo_checks();
+        }
         self.ledger.counts = false;
         self.disk.forgo_largest();
     }

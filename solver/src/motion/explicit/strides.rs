@@ -34,7 +34,8 @@ const ANGLE_UNSEEN: f64 = 1e-7;
 /// Maps of strides, and when to try the next one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Strides {
-    maps: Vec<Arc<StrideMap>>,
+    /// Shared by copies of the motion.
+    maps: Arc<Vec<Arc<StrideMap>>>,
     /// Sides in contact at the last step, and the number of steps that they have been.
     sides: ActiveSet,
     same: u64,
@@ -287,9 +288,6 @@ impl Explicit {
             }
             self.strides.next_map = self.n + STEPS_OF_MAP;
         }
-        if self.strides.maps.len() >= MOST_MAPS {
-            self.strides.maps.clear();
-        }
         let ahead = |tip: usize, at: &State| {
             let (index, shape) = (held[tip].index, tips[tip].shape);
             let [a, b] = modes_of(at);
@@ -300,7 +298,11 @@ impl Explicit {
         let frame = (self.frame_turn(), self.tips.diameters);
         let map = StrideMap::new(&self.casing, modes, frame, tips.clone(), state, ahead)?;
         let map = Arc::new(map);
-        self.strides.maps.push(map.clone());
+        let known = Arc::make_mut(&mut self.strides.maps);
+        if known.len() >= MOST_MAPS {
+            known.clear();
+        }
+        known.push(map.clone());
         Some(map)
     }
 

@@ -84,18 +84,26 @@ impl Margins {
         Self { scene, note, robust: None, pushes_only: None, limits, target: None, cost }
     }
 
-    /// Returns the number of rows that [`ask_runs`](Self::ask_runs) computes for a scene.
+    /// Returns the number of rows that [`ask_runs`](Self::ask_runs) computes for a scene under
+    /// every law.
     #[must_use]
     pub fn rows_asked(scene: &CheckedScene) -> usize {
         changes::scenes_to_run(scene).iter().map(|scene| changes::rows(scene).len()).sum()
     }
 
     /// Determines the robustness of the verdict by runs, with each quantity between zero and twice
-    /// its value, and passes itself to `known` after each row. Fills `robust` and, if the law
-    /// pulls, `pushes_only`. `None` if `go_on` returned false; the rows computed until then stay.
-    pub fn ask_runs(&mut self, go_on: GoOn<'_>, known: &mut dyn FnMut(&Self)) -> Option<()> {
+    /// its value, and passes itself to `known` after each row. Fills `robust` and, with `every_law`
+    /// if the law pulls, `pushes_only`. `None` if `go_on` returned false; the rows computed until
+    /// then stay.
+    pub fn ask_runs(
+        &mut self,
+        every_law: bool,
+        go_on: GoOn<'_>,
+        known: &mut dyn FnMut(&Self),
+    ) -> Option<()> {
         let start = Instant::now();
-        for (place, scene) in changes::scenes_to_run(&self.scene).iter().enumerate() {
+        let laws = if every_law { usize::MAX } else { 1 };
+        for (place, scene) in changes::scenes_to_run(&self.scene).iter().take(laws).enumerate() {
             let rows = changes::rows(scene);
             let mut found = Robustness {
                 contact: scene.solver.contact,

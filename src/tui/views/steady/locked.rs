@@ -174,6 +174,7 @@ fn not_this_run(app: &App, can_last: bool) -> Option<String> {
     let (cursor, here) = (app.reading.cursor?, app.panel().here(app));
     let run = app.full_run().filter(|_| can_last && !app.is_asked())?;
     let elsewhere = (cursor.across - here.across).abs() > 0.5 * STEP;
-    let locks = matches!(run.verdict, Verdict::Locked | Verdict::Adhesive);
-    (!elsewhere && !locks).then(|| format!("but this run: {}", run.verdict.as_ref().to_uppercase()))
+    let locks = matches!(run.facts.verdict, Verdict::Locked | Verdict::Adhesive);
+    (!elsewhere && !locks)
+        .then(|| format!("but this run: {}", run.facts.verdict.as_ref().to_uppercase()))
 }

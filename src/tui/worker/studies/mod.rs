@@ -6,11 +6,11 @@ mod map;
 mod study;
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use study::{Given, Study, StudySlot, Work};
 
-use crate::tui::engine::{Found, Order, SLICE, Working};
+use crate::tui::engine::{FORECAST_LIMIT, Found, Order, SLICE, Working};
 use crate::tui::film::Film;
 use crate::tui::views::id::ViewId;
 use crate::tui::views::margins::live::LiveMargins;
@@ -122,8 +122,7 @@ impl Study for LockedStudy {
     }
 }
 
-/// The spectrum of the casing's motion in the full run. Studies run after it, so its samples are
-/// complete unless it was given up.
+/// The spectrum of the casing's motion in the last part of the run.
 #[derive(Debug)]
 struct SpectrumStudy;
 
@@ -139,7 +138,12 @@ impl Study for SpectrumStudy {
     }
 
     fn begin(_: &u64, given: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
-        Job::done(Spectrum::of(&given.order.scene, &given.run.signal()))
+        let (scene, film) = (given.order.scene.clone(), given.run.clone());
+        Job::by(move |to, go_on| {
+            let began = Instant::now();
+            let signal = film.signal(&|| go_on() && began.elapsed() < FORECAST_LIMIT);
+            _ = to.send(Spectrum::of(&scene, &signal));
+        })
     }
 }
 
@@ -169,23 +173,24 @@ impl Study for CoincidenceStudy {
 struct MarginsStudy;
 
 impl Study for MarginsStudy {
-    /// The scene, and the speed range of the survey \[rad/s\]; `None` covers all speeds.
-    type Key = (CheckedScene, Option<[f64; 2]>);
+    /// The scene, the speed range of the survey \[rad/s\] (`None` covers all speeds), and whether
+    /// every law is searched.
+    type Key = (CheckedScene, Option<[f64; 2]>, bool);
     type Found = LiveMargins;
     const VIEW: ViewId = ViewId::Margins;
     const SLOW: bool = true;
 
     fn key(given: &Given) -> Option<Self::Key> {
         let order = given.order;
-        order.shows(Self::VIEW).then(|| (order.scene.clone(), order.range))
+        order.shows(Self::VIEW).then(|| (order.scene.clone(), order.range, order.every_law))
     }
 
     fn begin(
-        (scene, range): &Self::Key,
+        (scene, range, every_law): &Self::Key,
         _: &Given,
         before: Option<&Self::Found>,
     ) -> Job<Self::Found> {
-        let (scene, range) = (scene.clone(), *range);
+        let (scene, range, every_law) = (scene.clone(), *range, *every_law);
         // Before the first margins no knob was turned.
         let rest = before.map_or(Duration::ZERO, |_| REST);
         Job::by(move |to, go_on| {
@@ -200,7 +205,8 @@ impl Study for MarginsStudy {
             }
             let survey = Survey::of(&scene, range, None).ok().map(Arc::new);
             send(&margins, &survey);
-            on_spare_cores(|| margins.ask_runs(go_on, &mut |margins| send(margins, &survey)));
+            let known = &mut |margins: &Margins| send(margins, &survey);
+            on_spare_cores(|| margins.ask_runs(every_law, go_on, known));
         })
     }
 }
