@@ -239,7 +239,7 @@ impl Solver for Events {
         let mass = self.flow.machine.casing_mass;
         let pushes = self.stretch.pushes_at(&self.held, self.elapsed(self.run.clock.now));
         let mut sides: Vec<(u32, f64)> =
-            pushes.map(|(row, push)| (row as u32, -push * mass)).collect();
+            pushes.map(|(row, push)| (row as u32, 0.0 - push * mass)).collect();
         in_phase_order(&self.flow.machine.polygon, &mut sides);
         sides
     }

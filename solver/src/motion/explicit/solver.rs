@@ -198,8 +198,10 @@ impl Solver for Explicit {
     }
 
     fn energy_account(&self) -> Option<EnergyAccount> {
+        // The step that failed is beyond what its energies describe.
+        let known = self.ledger.counts && self.failure.is_none();
         let stored_j = || self.stored() - self.ledger.start;
-        self.ledger.counts.then(|| EnergyAccount { stored_j: stored_j(), ..self.ledger.sums })
+        known.then(|| EnergyAccount { stored_j: stored_j(), ..self.ledger.sums })
     }
 
     fn forgo_checks(&mut self) {
