@@ -11,7 +11,7 @@
 
 use super::Plane;
 use crate::model::{Machine, Operation};
-use crate::numeric::quadrature::GAUSS_8;
+use crate::numeric::quadrature::GAUSS_6;
 
 /// Frequency of a damped oscillator, as a part of its damping, up to which it hardly swings.
 const HARDLY_SWINGS: f64 = 0.3;
@@ -85,7 +85,7 @@ impl Propagator {
         }
         let half = 0.5 * s;
         let both = |node: f64| self.at(half - half * node).unit + self.at(half + half * node).unit;
-        GAUSS_8.iter().map(|(node, weight)| half * weight * both(*node)).sum()
+        GAUSS_6.iter().map(|(node, weight)| half * weight * both(*node)).sum()
     }
 
     /// Returns displacement and rate after the free motion of a response.

@@ -15,7 +15,7 @@ use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
 use crate::motion::{Failure, FailureReason, Plane, dot, size};
-use crate::numeric::quadrature::GAUSS_8;
+use crate::numeric::quadrature::GAUSS_6;
 use crate::numeric::search::bisected;
 
 /// Instants of a free flight at which the blade angles are looked at.
@@ -66,7 +66,7 @@ impl Energies {
             return;
         }
         let half = 0.5 * s;
-        for (node, weight) in GAUSS_8 {
+        for (node, weight) in GAUSS_6 {
             for signed in [-node, node] {
                 self.add(flow, held, stretch, half + half * signed, half * weight);
             }

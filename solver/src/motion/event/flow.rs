@@ -53,24 +53,42 @@ pub(super) struct Blades {
     pub diameters: f64,
 }
 
-/// Gradient of a gap and direction of its contact force at one point of the motion.
+/// Gradient of a gap, and what a unit contact force accelerates, at one point of the motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Face {
     /// `exp(i psi)`.
     pub base: Plane,
     /// Change of the gap with `z`, and direction of the force without friction.
     pub normal: Plane,
-    /// Change of the gap with `-alpha` \[m\].
-    lift: f64,
-    /// Angular acceleration of the blades against `alpha` by a unit force \[1/m\].
-    lever: f64,
+    /// Change of the gap with `-a` \[m\].
+    lift: Plane,
+    /// Acceleration of the casing.
+    pub casing: Plane,
+    /// Angular acceleration of the blades \[1/m\].
+    pub blades: Plane,
 }
 
 impl Face {
     /// Returns the change of the gap by the casing displacement `z` and the blade angle `a` \[m\].
     pub(super) fn along(&self, z: Plane, a: Plane) -> f64 {
-        dot(self.normal, z) - self.lift * dot(self.base, a)
+        dot(self.normal, z) - dot(self.lift, a)
     }
+
+    /// Returns the acceleration of this gap by a unit contact force on `by`, the entry of `W`. Not
+    /// symmetric with friction.
+    pub(super) fn joint(&self, by: &Self) -> f64 {
+        self.along(by.casing, by.blades)
+    }
+}
+
+/// Returns the accelerations by contact forces on these faces, or the jumps of the rates by impulses.
+pub(super) fn pushed<'a>(pushes: impl Iterator<Item = (&'a Face, f64)>) -> (Plane, Plane) {
+    let (mut z, mut a) = (Plane::default(), Plane::default());
+    for (face, push) in pushes {
+        z += face.casing * push;
+        a += face.blades * push;
+    }
+    (z, a)
 }
 
 /// The equations at one rotor speed.
@@ -248,7 +266,7 @@ impl Flow {
     pub(super) fn face(&self, row: usize, point: &Point) -> Face {
         let base = self.rows.get(row).copied().unwrap_or_default();
         let Some(blades) = &self.blades else {
-            return Face { base, normal: base, lift: 0.0, lever: 0.0 };
+            return Face { base, normal: base, casing: self.turn * base, ..Face::default() };
         };
         let (normal, y) = match blades.diameters {
             0.0 => (base, 0.0),
@@ -258,7 +276,8 @@ impl Flow {
             }
         };
         let (lift, lever) = (blades.arm - y, (blades.moment - y) / blades.mass);
-        Face { base, normal, lift, lever }
+        let (lift, blades) = (base * lift, base * -lever);
+        Face { base, normal, lift, casing: self.turn * normal, blades }
     }
 
     /// Returns the gap of a row \[m\].
@@ -324,24 +343,6 @@ impl Flow {
             lift * (stiffness * size(point.a) + 2.0 * damping * size(point.da))
         });
         casing + blades
-    }
-
-    /// Returns the accelerations by contact forces on these faces, or the jumps of the rates by
-    /// impulses.
-    pub(super) fn pushed(&self, pushes: impl Iterator<Item = (Face, f64)>) -> (Plane, Plane) {
-        let (mut z, mut a) = (Plane::default(), Plane::default());
-        for (face, push) in pushes {
-            z += face.normal * push;
-            a -= face.base * (face.lever * push);
-        }
-        (self.turn * z, a)
-    }
-
-    /// Returns the acceleration of the gap of `face` due to a unit contact force on `by`, the entry
-    /// of `W`. Not symmetric with friction.
-    pub(super) fn joint(&self, face: &Face, by: &Face) -> f64 {
-        let (z, a) = self.pushed(std::iter::once((*by, 1.0)));
-        face.along(z, a)
     }
 
     /// Returns the velocity of the casing in the stationary frame, in components along the axes of

@@ -6,11 +6,12 @@
 //! force has vanished opens and is not tested again.
 
 use super::Events;
-use super::flow::Face;
+use super::flow::{Face, pushed};
 use super::seek::OpenedGap;
-use super::stretch::Held;
+use super::stretch::{Held, MOST_HELD};
 use crate::motion::point::Point;
 use crate::motion::{ActiveSet, FailureReason, size};
+use crate::numeric::lcp::complementary_of_two;
 use crate::numeric::rounding::ROUND_OFF;
 
 /// A closing rate below this part of `omega_c g0` is a touch and not an impact: round-off of the
@@ -52,7 +53,8 @@ impl Events {
             * flow.tolerance
             * (flow.clearance() + size(point.z) + reach * size(point.a));
         let first = self.touch(point, hit, closing);
-        let mut met = vec![first];
+        let mut met = Vec::with_capacity(MOST_HELD);
+        met.push(first);
         met.extend(self.held.rows.iter().map(|&row| self.touch(point, row, 0.0)));
         for row in self.flow.near(point, limit) {
             if row == hit || self.held.rows.contains(&row) {
@@ -67,7 +69,7 @@ impl Events {
                 }
             };
             let apart = gap > limit || (opened.is_some() && rate > 0.0);
-            let opens = rate < 0.0 && flow.joint(&touch.face, &first.face) > 0.0;
+            let opens = rate < 0.0 && touch.face.joint(&first.face) > 0.0;
             if !apart && !opens {
                 touch.opening = rate;
                 met.push(touch);
@@ -79,17 +81,26 @@ impl Events {
     /// Finds the impulses or contact forces that solve the complementarity problem of these rows;
     /// `None` if there is no solution, or too many rows.
     fn complementary(&mut self, met: &mut [Touch]) -> Option<()> {
-        let Self { flow, problem, .. } = self;
         if met.len() > MOST_TOUCHING {
             return None;
         }
-        let joint = |row: usize, by: usize| match (met.get(row), met.get(by)) {
-            (Some(row), Some(by)) => flow.joint(&row.face, &by.face),
-            _ => 0.0,
-        };
-        problem.fill(met.iter().map(|touch| touch.opening), joint);
         // Multipliers below zero push.
-        let found = problem.complementary(true)?;
+        if let [touch] = met {
+            let push = -touch.opening / touch.face.joint(&touch.face);
+            touch.push = if touch.opening < 0.0 { push } else { 0.0 };
+            return (0.0..f64::INFINITY).contains(&touch.push).then_some(());
+        }
+        if let [a, b] = met {
+            let [across, back] = [a.face.joint(&b.face), b.face.joint(&a.face)];
+            let joint = [[a.face.joint(&a.face), across], [back, b.face.joint(&b.face)]];
+            if let Some(found) = complementary_of_two(joint, [a.opening, b.opening]) {
+                [a.push, b.push] = found.map(|multiplier| -multiplier);
+                return Some(());
+            }
+        }
+        let joint = |row: usize, by: usize| met[row].face.joint(&met[by].face);
+        self.problem.fill(met.iter().map(|touch| touch.opening), joint);
+        let found = self.problem.complementary(true)?;
         met.iter_mut().zip(found).for_each(|(touch, multiplier)| touch.push = -multiplier);
         Some(())
     }
@@ -114,8 +125,7 @@ impl Events {
             return;
         }
         let flow = &self.flow;
-        let struck = || met.iter().map(|touch| (touch.face, touch.push));
-        let (z, a) = flow.pushed(struck());
+        let (z, a) = pushed(met.iter().map(|touch| (&touch.face, touch.push)));
         let before = *point;
         (point.dz, point.da) = (point.dz + z, point.da + a);
         let mut hits = met.iter().zip(rates).take(1);
@@ -155,7 +165,7 @@ impl Events {
         }
         let mean =
             Point { dz: (before.dz + point.dz) * 0.5, da: (before.da + point.da) * 0.5, ..before };
-        self.energies.push(flow, &mean, 0.0, struck());
+        self.energies.push(flow, &mean, 0.0, met.iter().map(|touch| (touch.face, touch.push)));
         if let ([held], [opened]) = (&still[..], &self.opened[known..])
             && let Some(time) = self.rocking(point, *held, opened)
         {
@@ -182,7 +192,7 @@ impl Events {
             return;
         }
         let flow = &self.flow;
-        let (z, a) = flow.pushed(met.iter().map(|touch| (touch.face, touch.push)));
+        let (z, a) = pushed(met.iter().map(|touch| (&touch.face, touch.push)));
         let mut rows = Vec::new();
         for Touch { row, face, opening, push } in met {
             if push > 0.0 || opening + face.along(z, a) <= noise {

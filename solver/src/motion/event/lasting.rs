@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::flow::Flow;
+use super::flow::{Flow, pushed};
 use super::stretch::{Held, MOST_HELD};
 use crate::model::CERTAIN_PUSH;
 use crate::model::LARGEST_BLADE_ANGLE;
@@ -86,7 +86,7 @@ impl Rest {
         let (_, pushes) = slope(flow, &mut held, &point)?;
         if size == 4 {
             // The static angle of blades that do not affect the casing.
-            let (_, tips) = flow.pushed(held.facing(pushes));
+            let (_, tips) = pushed(held.facing(pushes));
             point.a = flow.blades.map_or_else(Plane::default, |b| tips / b.propagator.stiffness);
         }
         let bound = lyapunov(&matrix)?;
@@ -145,7 +145,7 @@ fn slope(flow: &Flow, held: &mut Held, point: &Point) -> Option<(Point, [f64; MO
         let (gap, opening) = (flow.gap(row, point), flow.gap_rate(row, point));
         flow.gap_bend(row, point, free) + rate * (2.0 * opening + rate * gap)
     }));
-    let (casing, tips) = flow.pushed(held.facing(pushes));
+    let (casing, tips) = pushed(held.facing(pushes));
     Some((Point { z: point.dz, dz: free.0 + casing, a: point.da, da: free.1 + tips }, pushes))
 }
 

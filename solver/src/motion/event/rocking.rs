@@ -41,8 +41,8 @@ impl Events {
             return None;
         }
         let [fa, fb] = [a.row, b].map(|row| flow.face(row, point));
-        let own = [flow.joint(&fa, &fa), flow.joint(&fb, &fb)];
-        let [r_a, r_b] = [flow.joint(&fb, &fa) / own[0], flow.joint(&fa, &fb) / own[1]];
+        let own = [fa.joint(&fa), fb.joint(&fb)];
+        let [r_a, r_b] = [fb.joint(&fa) / own[0], fa.joint(&fb) / own[1]];
         let rigid = flow.blades.is_none() && flow.turn.im == 0.0;
         let rest = if rigid { Point { dz: Plane::default(), ..*point } } else { *point };
         let free = flow.free(&rest, Plane::default());

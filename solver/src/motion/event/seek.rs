@@ -132,8 +132,7 @@ pub(super) fn seek(
             if stretch.least_gap(flow, row, end) > noise || known() {
                 continue;
             }
-            let terms = stretch.gap(flow, row);
-            if let Some((x, rate)) = first_zero(&terms, noise, end) {
+            if let Some((x, rate)) = first_zero(&stretch.gap(flow, row), noise, end) {
                 (end, what) = (x, Ending::Touch(row, (rate / stretch.length).min(0.0)));
             }
         }

@@ -7,7 +7,7 @@
 //! the blade angles in normal and lever of a row add three products of series to what earlier terms
 //! push, and the turning of its normal adds `curvature_j`.
 
-use super::flow::{Blades, Face, Flow};
+use super::flow::{Blades, Face, Flow, pushed};
 use super::series::{STRETCH, TERMS, Terms, ended, gap, value};
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
@@ -58,7 +58,7 @@ impl Held {
         let mut matrix = [[0.0; MOST_HELD]; MOST_HELD];
         for (line, face) in matrix.iter_mut().zip(self.faces()) {
             for (entry, by) in line.iter_mut().zip(self.faces()) {
-                *entry = flow.joint(face, by);
+                *entry = face.joint(by);
             }
         }
         self.inverse = match self.rows.len() {
@@ -92,8 +92,8 @@ impl Held {
     }
 
     /// Pairs the face of each row with its contact force.
-    pub(super) fn facing(&self, pushes: [f64; MOST_HELD]) -> impl Iterator<Item = (Face, f64)> {
-        self.faces().iter().copied().zip(pushes)
+    pub(super) fn facing(&self, pushes: [f64; MOST_HELD]) -> impl Iterator<Item = (&Face, f64)> {
+        self.faces().iter().zip(pushes)
     }
 
     /// Projects a point near the present faces so that the gaps in contact are closed and at rest to
@@ -103,13 +103,13 @@ impl Held {
             return Some(());
         }
         let apart = self.pushes(&self.each(|row| flow.gap(row, point)));
-        let (z, a) = flow.pushed(self.facing(apart));
+        let (z, a) = pushed(self.facing(apart));
         (point.z, point.a) = (point.z + z, point.a + a);
         if flow.diameters() != 0.0 {
             self.face(flow, point)?;
         }
         let rates = self.pushes(&self.each(|row| flow.gap_rate(row, point)));
-        let (dz, da) = flow.pushed(self.facing(rates));
+        let (dz, da) = pushed(self.facing(rates));
         (point.dz, point.da) = (point.dz + dz, point.da + da);
         Some(())
     }
@@ -156,7 +156,7 @@ struct Turning {
 }
 
 /// One stretch of motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Stretch {
     /// Duration; infinite if no event ends it \[s\].
     pub length: f64,
@@ -219,21 +219,15 @@ impl Stretch {
 
     /// Creates a free flight that cannot end within `length` seconds.
     pub(super) fn flight(from: Point, length: f64) -> Self {
-        let zero = [0.0; TERMS];
-        Self {
-            length,
-            from,
-            z: [zero; 2],
-            a: [zero; 2],
-            force: [zero; 2],
-            pushes: [zero; MOST_HELD],
-            noise: 0.0,
-            travel: [0.0; 2],
-            twist: 0.0,
-            swing: 0.0,
-            lost: false,
-            free: true,
-        }
+        let mut stretch = Self::default();
+        stretch.fly(from, length);
+        stretch
+    }
+
+    /// Becomes a free flight that cannot end within `length` seconds.
+    pub(super) fn fly(&mut self, from: Point, length: f64) {
+        (self.from, self.length, self.free, self.lost) = (from, length, true, false);
+        (self.travel, self.swing, self.force) = Default::default();
     }
 
     /// Fixes the motion at its equilibrium, after its changes have fallen to round-off.
@@ -289,10 +283,10 @@ impl Stretch {
                 }
             }
             if !held.rows.is_empty() {
-                let mut bends = [0.0; MOST_HELD];
+                let mut openings = [0.0; MOST_HELD];
                 if let (Some(blades), Some(turned)) = (&turning, &mut turned) {
                     let each = held.faces().iter().zip(turned).zip(&self.pushes);
-                    for (((face, turned), pushes), bend) in each.zip(&mut bends) {
+                    for (((face, turned), pushes), bend) in each.zip(&mut openings) {
                         let rate = blades.diameters * dot(face.base, da) * (order + 1.0);
                         *bend = turned.follow(face, rate, &self.z, n) / over;
                         let [re, im, lever] = turned.left(pushes, n);
@@ -300,14 +294,12 @@ impl Stretch {
                         tips += face.base * (blades.diameters / blades.mass * lever);
                     }
                 }
-                let mut openings = bends;
                 for (opening, face) in openings.iter_mut().zip(held.faces()) {
                     *opening += face.along(casing, tips);
                 }
                 let pushes = held.pushes(&openings);
-                let (by_casing, by_tips) = flow.pushed(held.facing(pushes));
-                (casing, tips) = (casing + by_casing, tips + by_tips);
-                for (terms, push) in self.pushes.iter_mut().zip(pushes).take(held.rows.len()) {
+                for ((face, push), terms) in held.facing(pushes).zip(&mut self.pushes) {
+                    (casing, tips) = (casing + face.casing * push, tips + face.blades * push);
                     terms[n] = push;
                 }
             }
@@ -379,21 +371,17 @@ impl Stretch {
         }
         let x = self.part(s);
         let per = if self.length > 0.0 { 1.0 / self.length } else { 0.0 };
-        let ([z_re, z_im], [a_re, a_im]) = (&self.z, &self.a);
-        let (mut value, mut rate) = ([0.0; 4], [0.0; 4]);
-        // All four series at once, so that their operations can overlap.
-        for n in (0..TERMS).rev() {
-            for (k, term) in [z_re[n], z_im[n], a_re[n], a_im[n]].into_iter().enumerate() {
-                rate[k] = rate[k] * x + value[k];
-                value[k] = value[k] * x + term;
+        let at = |[re, im]: &Wave| {
+            let (mut value, mut rate) = (Plane::default(), Plane::default());
+            for (re, im) in re.iter().zip(im).rev() {
+                rate = rate * x + value;
+                value = value * x + Plane::new(*re, *im);
             }
-        }
-        Point {
-            z: Plane::new(value[0], value[1]),
-            dz: Plane::new(rate[0], rate[1]) * per,
-            a: Plane::new(value[2], value[3]),
-            da: Plane::new(rate[2], rate[3]) * per,
-        }
+            (value, rate * per)
+        };
+        let (z, dz) = at(&self.z);
+        let (a, da) = if flow.blades.is_some() { at(&self.a) } else { Default::default() };
+        Point { z, dz, a, da }
     }
 
     /// Returns the contact forces of the rows per unit casing mass after `s` seconds \[m/s^2\].

@@ -66,7 +66,7 @@ impl Events {
         if self.held.rows.is_empty() && !pulses {
             let safe = self.flow.safe_flight(&point);
             if safe * self.flow.rates() > super::series::STRETCH {
-                self.stretch = Stretch::flight(point, safe);
+                self.stretch.fly(point, safe);
                 self.opened.clear();
                 self.next = (safe, Ending::StretchEnd);
                 return;
@@ -164,8 +164,10 @@ impl Events {
             }
         }
         let limit = JUST_OPENED * flow.clearance();
-        let later = self.opened.iter().map(|gap| gap.later(flow, &self.stretch, s));
-        self.opened = later.filter(|gap| gap.gap < limit).collect();
+        self.opened.retain_mut(|gap| {
+            *gap = gap.later(flow, &self.stretch, s);
+            gap.gap < limit
+        });
         self.phase = (self.phase + flow.turned(s)) % TAU;
         if self.pulses() && s >= self.elapsed(self.run.pulse.end) {
             self.run.clock.begin_at(self.run.pulse.end);
