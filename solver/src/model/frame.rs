@@ -50,6 +50,13 @@ impl Structure {
         Complex::new(self.mass * (own - omega) * (own + omega), self.damping * omega)
     }
 
+    /// Returns the eigenvalues `l` on a spring, the roots of `L(l) + spring` \[1/s\].
+    #[must_use]
+    pub fn on_spring(&self, spring: Complex<f64>) -> [Complex<f64>; 2] {
+        let [constant, linear, square] = self.powers();
+        roots([constant + spring, linear, square])
+    }
+
     /// Returns the coefficients of `L(l)` for powers 0, 1 and 2 of the rate `l`.
     #[must_use]
     pub fn powers(&self) -> [Complex<f64>; 3] {
@@ -154,17 +161,7 @@ impl Frame {
         }
         let (casing, blades) = (self.casing.powers(), self.blades.powers());
         let turned = Complex::new(1.0, self.friction);
-        let [constant, linear, square] =
-            [0, 1, 2].map(|k| casing[k] * coupling + turned * blades[k]);
-        let half = linear / (square * 2.0);
-        let root = (half * half - constant / square).sqrt();
-        // The larger root first; the other from the product of both, which avoids cancellation.
-        let far = if (half + root).norm_sqr() >= (half - root).norm_sqr() {
-            -half - root
-        } else {
-            root - half
-        };
-        vec![far, if far.norm() > 0.0 { constant / square / far } else { far }]
+        roots([0, 1, 2].map(|k| casing[k] * coupling + turned * blades[k])).to_vec()
     }
 
     /// Returns the eigenvalues `l` of the four waves about an axisymmetric state in which contact acts
@@ -249,6 +246,19 @@ impl Frame {
             stiffness: project(scale * stiffness * scale, FIRM),
         }
     }
+}
+
+/// Returns the roots of a polynomial, given by its coefficients from power 0 on. The larger root comes
+/// first; the other follows from the product of both, which avoids cancellation.
+fn roots([constant, linear, square]: [Complex<f64>; 3]) -> [Complex<f64>; 2] {
+    let half = linear / (square * 2.0);
+    let root = (half * half - constant / square).sqrt();
+    let far = if (half + root).norm_sqr() >= (half - root).norm_sqr() {
+        -half - root
+    } else {
+        root - half
+    };
+    [far, if far.norm() > 0.0 { constant / square / far } else { far }]
 }
 
 /// Returns an orthonormal basis whose columns, from the number of `rows` on, are orthogonal to all of

@@ -142,6 +142,11 @@ impl Lasting {
         self.now.wave().max(self.before.wave())
     }
 
+    /// Returns whether every row has touched over the last two stretches.
+    pub fn is_pressed(&self, now: f64) -> bool {
+        self.all_since.is_some_and(|since| since <= now - 2.0 * self.length)
+    }
+
     /// Restarts the trends after a change during the run, at `t` \[s\].
     pub fn change(&mut self, t: f64) {
         self.trends.iter_mut().for_each(|trend| trend.change(t));

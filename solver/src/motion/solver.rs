@@ -105,9 +105,8 @@ pub trait Solver: Debug + Send + Sync {
     /// open. `None` until then.
     fn final_verdict(&self) -> Option<Verdict>;
 
-    /// The rate at which the slowest wave that moves the tips in a lining dies, where all blades
-    /// press it at constant speed and stay so through the whole beat; negative where it grows, 0
-    /// where it does neither beyond round-off \[1/s\].
+    /// Returns the decay rate of the slowest wave that indents a lining, where all blades press it at
+    /// constant speed and none has lifted lately; negative for growth, 0 for neither \[1/s\].
     fn rest_rate(&self) -> Option<f64> {
         None
     }

@@ -7,7 +7,7 @@
 //! the rotor or of their growth. Where other tips or another clearance close a gap of rigid
 //! contact, the casing gives way.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::row::{TipLaw, Tips};
 use super::{Explicit, Oscillator, long_step};
@@ -88,7 +88,6 @@ impl Explicit {
         self.strides.forget();
         self.stride = None;
         self.changed = self.n;
-        self.rest = OnceLock::new();
     }
 
     /// Returns whether the machine changes from step to step.

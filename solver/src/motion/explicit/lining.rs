@@ -103,10 +103,6 @@ impl Lining {
         }
     }
 
-    pub fn all_press(&self) -> bool {
-        self.all
-    }
-
     pub fn presses(&self) -> bool {
         self.sides != ActiveSet::Nothing
     }

@@ -8,7 +8,7 @@
 //! directions of a tip), `step` (section 4.2 of the paper line by line), `lining` (a push by the gap
 //! in place of the multiplier), `stride_map` and `strides` (many steps at once); then `drive`,
 //! `record` (the drive of a motion, and its record), `changes` (a machine that
-//! changes during the run), `rest` and `proofs` (verdicts before the end). `solver` combines them.
+//! changes during the run) and `proofs` (verdicts before the end). `solver` combines them.
 
 mod angles;
 mod changes;
@@ -19,7 +19,6 @@ mod lining;
 mod oscillator;
 mod proofs;
 mod record;
-mod rest;
 mod row;
 mod shapes;
 mod solver;
@@ -27,7 +26,7 @@ mod step;
 mod stride_map;
 mod strides;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use super::lasting::Lasting;
 use super::{Failure, Plane, across};
@@ -39,7 +38,6 @@ use drive::Drive;
 use lining::Lining;
 use oscillator::{Coordinate, Oscillator};
 use record::{Ledger, Record};
-use rest::Rest;
 pub(super) use row::turned;
 use row::{Row, TipLaw, Tips};
 use step::LONG_STEP;
@@ -85,8 +83,6 @@ pub(super) struct Explicit {
     record: Record,
     pub(super) lasting: Lasting,
     ledger: Ledger,
-    /// The linear motion about rest at this speed, once asked for.
-    rest: OnceLock<Option<Rest>>,
     strides: Strides,
     /// The stride that contains the latest step, and the motion at its start; or the stride that
     /// begins at the latest step, alone.
@@ -138,7 +134,6 @@ impl Explicit {
             long_step: long_step(scene, &machine),
             long_steps: 0,
             next_look: 0,
-            rest: OnceLock::new(),
             strides: Strides::default(),
             stride: None,
             changed: 0,

@@ -143,15 +143,12 @@ impl Solver for Explicit {
     }
 
     fn lasting(&self, window: f64) -> Verdict {
-        let (log, now) = (&self.record.log, self.t_s());
-        // A beat that lifts blades must be over within another run.
-        let rests = || Some(self.rest()?.rate > 0.0 && self.stays_linear(now)?);
-        self.lasting.verdict(&self.machine, log, [now, window], rests)
+        let rests = || self.rest_rate().map(|rate| rate > 0.0);
+        self.lasting.verdict(&self.machine, &self.record.log, [self.t_s(), window], rests)
     }
 
     fn rest_rate(&self) -> Option<f64> {
-        let rest = self.rest()?;
-        (self.stays_linear(0.0) == Some(true)).then_some(rest.rate)
+        self.decay_about_rest()
     }
 
     fn pulse(&self) -> &Pulse {
