@@ -233,6 +233,17 @@ impl EnergyAccount {
     }
 }
 
+/// Energy account of a motion under way.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ledger {
+    /// Flows so far; `stored_j` is not among them.
+    pub sums: EnergyAccount,
+    /// Energy at the start plus the energy that changes from outside have added \[J\].
+    pub start: f64,
+    /// Whether the account is kept.
+    pub counts: bool,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -25,6 +25,7 @@ mod solver;
 pub mod verdict;
 mod wave;
 
+use contacts::Ledger;
 pub use contacts::{ActiveSet, ContactLog, EnergyAccount, Hold, Impact, in_phase_order};
 pub use drive::{Pulse, Rotor, State};
 pub(crate) use event::EVENT;

@@ -1,10 +1,8 @@
-//! Energy balance of a run, per unit casing mass, and the detection of motions that leave the range
-//! of the model.
+//! Energy account of a run, and the detection of motions that leave the range of the model.
 //!
 //! Contact forces work on casing and blades through the slope of the wave, which moves with the
 //! rotor, and through friction. The product of `mu P` and the sliding speed is heat, which the
-//! rotor supplies. Its much larger part, from sliding on a casing at rest, is kept separate to
-//! preserve digits.
+//! rotor supplies, even with the casing at rest.
 
 use std::f64::consts::TAU;
 
@@ -14,51 +12,22 @@ use super::flow::{Blades, Face, Flow};
 use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
-use crate::motion::{Failure, FailureReason, Plane, dot, size};
+use crate::motion::{EnergyAccount, Failure, FailureReason, Plane, dot, size};
 use crate::numeric::quadrature::GAUSS_6;
 use crate::numeric::search::bisected;
 
 /// Instants of a free flight at which the blade angles are looked at.
 const ANGLES: u32 = 64;
 
-/// Energies per unit casing mass \[m^2/s^2\].
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Energies {
-    /// Kinetic and potential energy at the start.
-    pub start: f64,
-    /// Work of the pulse.
-    pub pulse: f64,
-    /// Work of the rotor through the slope of the casing wave.
-    pub rotor: f64,
-    /// Work of blades that grow with the speed.
-    pub growth: f64,
-    /// Work of the rotor against friction on a casing at rest, all of which becomes heat.
-    pub sliding: f64,
-    /// Work of friction on the motion of casing and blades, which reduces the heat.
-    pub dragged: f64,
-    /// Energy dissipated in the casing damping.
-    pub casing: f64,
-    /// Energy dissipated in the blade damping.
-    pub blades: f64,
-    /// Energy lost in impacts.
-    pub impacts: f64,
-}
-
-impl Energies {
-    /// Returns the error of the balance for a state with this energy.
-    pub(super) fn residual(&self, energy: f64) -> f64 {
-        let lost = self.casing + self.blades + self.impacts;
-        self.pulse + self.rotor + self.growth + self.dragged - lost - (energy - self.start)
-    }
-
+impl EnergyAccount {
     /// Adds the first `s` seconds of a stretch.
     pub(super) fn book(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64) {
         if held.rows.is_empty() && !stretch.is_pulsed() {
             // In free motion damping takes what is gone.
             let [casing, blades] = flow.energies(stretch.from(), 0.0);
             let [casing_left, blades_left] = flow.energies(&stretch.point(flow, s), s);
-            self.casing += casing - casing_left;
-            self.blades += blades - blades_left;
+            self.casing_loss_j += casing - casing_left;
+            self.blade_loss_j += blades - blades_left;
             return;
         }
         if stretch.length == f64::INFINITY {
@@ -77,13 +46,13 @@ impl Energies {
     fn add(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64, time: f64) {
         let point = stretch.point(flow, s);
         let v = flow.carried(&point, s);
+        let time_mass = time * flow.machine.casing_mass;
         if stretch.is_pulsed() {
-            self.pulse += time * dot(stretch.force_at(s), v);
+            self.pulse_work_j += time_mass * dot(stretch.force_at(s), v);
         }
-        self.casing += time * 2.0 * flow.casing.damping * v.norm_sqr();
-        if let Some(blades) = flow.blades {
-            self.blades +=
-                time * 2.0 * blades.propagator.damping * blades.mass * point.da.norm_sqr();
+        self.casing_loss_j += time_mass * 2.0 * flow.casing.damping * v.norm_sqr();
+        if let Some(Blades { propagator, mass, .. }) = flow.blades {
+            self.blade_loss_j += time_mass * 2.0 * propagator.damping * mass * point.da.norm_sqr();
         }
         if !held.rows.is_empty() {
             let pushes = stretch.pushes_at(held, s);
@@ -114,9 +83,9 @@ impl Energies {
         let on_casing = dot(Plane::i() * along * flow.turn.im, flow.carried(point, s));
         let length = flow.machine.blade_length;
         let on_blades = flow.blades.map_or(0.0, |_| -flow.friction * length * dot(bases, point.da));
-        self.rotor += slope;
-        self.sliding += sliding;
-        self.dragged += on_casing + on_blades;
+        let mass = flow.machine.casing_mass;
+        self.rotor_work_j += mass * (slope + sliding);
+        self.friction_heat_j += mass * (sliding - on_casing - on_blades);
     }
 }
 

@@ -351,18 +351,17 @@ impl Flow {
         point.dz + Plane::i() * point.z * self.nu_at(s)
     }
 
-    /// Returns the energies of casing and blades per unit casing mass `s` seconds after the start of
-    /// the stretch \[m^2/s^2\].
+    /// Returns the energies of casing and blades `s` seconds after the start of the stretch \[J\].
     pub(super) fn energies(&self, point: &Point, s: f64) -> [f64; 2] {
         let casing = self.carried(point, s).norm_sqr() + self.casing.stiffness * point.z.norm_sqr();
         let blades = self.blades.map_or(0.0, |blades| {
             let stiffness = blades.propagator.stiffness;
             blades.mass * (point.da.norm_sqr() + stiffness * point.a.norm_sqr())
         });
-        [0.5 * casing, 0.5 * blades]
+        [casing, blades].map(|twice| 0.5 * self.machine.casing_mass * twice)
     }
 
-    /// Returns their sum \[m^2/s^2\].
+    /// Returns their sum \[J\].
     pub(super) fn energy(&self, point: &Point, s: f64) -> f64 {
         let [casing, blades] = self.energies(point, s);
         casing + blades

@@ -152,7 +152,8 @@ impl Events {
             } else {
                 still.push(row);
             }
-            self.energies.impacts -= 0.5 * push * (rate + after);
+            let lost = 0.5 * flow.machine.casing_mass * push * (rate + after);
+            self.ledger.sums.impact_loss_j -= lost;
             if push > 0.0 {
                 touched = touched.with(row as u32);
                 if rate < -soft {
@@ -165,7 +166,7 @@ impl Events {
         }
         let mean =
             Point { dz: (before.dz + point.dz) * 0.5, da: (before.da + point.da) * 0.5, ..before };
-        self.energies.push(flow, &mean, 0.0, met.iter().map(|touch| (touch.face, touch.push)));
+        self.ledger.sums.push(flow, &mean, 0.0, met.iter().map(|touch| (touch.face, touch.push)));
         if let ([held], [opened]) = (&still[..], &self.opened[known..])
             && let Some(time) = self.rocking(point, *held, opened)
         {

@@ -31,12 +31,11 @@ use crate::model::Machine;
 use crate::motion::lasting::Lasting;
 use crate::motion::point::Point;
 use crate::motion::{
-    Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Plane, Pulse, Rotor, Solver,
-    State, Verdict, dot, in_phase_order,
+    Checks, ContactLog, EnergyAccount, Failure, FailureReason, GoOn, Ledger, Plane, Pulse, Rotor,
+    Solver, State, Verdict, dot, in_phase_order,
 };
 use crate::numeric::lcp::Lcp;
 use crate::scene::{CheckedScene, SceneError};
-use energy::Energies;
 use flow::Flow;
 use impact::Touch;
 use lasting::Rest;
@@ -74,7 +73,8 @@ const EVENT_RANGE: std::ops::RangeInclusive<f64> = 1e-16..=1e-3;
 pub struct Events {
     flow: Flow,
     run: Run,
-    energies: Energies,
+    /// The account; the largest angle and the deepest penetration are recorded with it.
+    ledger: Ledger,
     /// Whether the scene goes beyond the paper's model.
     beyond: bool,
     /// Phase `n_d theta` at the start of the stretch, modulo a full turn \[rad\].
@@ -117,7 +117,7 @@ impl Events {
 
     fn from_point(scene: &CheckedScene, flow: Flow, point: Point) -> Self {
         let mut motion = Self {
-            energies: Energies { start: flow.energy(&point, 0.0), ..Energies::default() },
+            ledger: Ledger { start: flow.energy(&point, 0.0), counts: true, ..Ledger::default() },
             run: Run::of(scene),
             beyond: scene.goes_beyond(),
             phase: 0.0,
@@ -184,11 +184,12 @@ impl Events {
         }
     }
 
-    /// Returns the energies up to the present instant.
-    fn energies_now(&self) -> Energies {
-        let mut energies = self.energies;
-        energies.book(&self.flow, &self.held, &self.stretch, self.elapsed(self.run.clock.now));
-        energies
+    /// Returns the energy account up to the present instant.
+    fn account_now(&self) -> EnergyAccount {
+        let (s, mut account) = (self.elapsed(self.run.clock.now), self.ledger.sums);
+        account.book(&self.flow, &self.held, &self.stretch, s);
+        let stored_j = self.flow.energy(&self.point_now(), s) - self.ledger.start;
+        EnergyAccount { stored_j, ..account }
     }
 
     /// Returns the displacements and rates at the present instant.
@@ -300,36 +301,20 @@ impl Solver for Events {
     }
 
     fn checks(&self) -> Checks {
-        let (s, flow) = (self.elapsed(self.run.clock.now), &self.flow);
-        let residual = self.energies_now().residual(flow.energy(&self.point_now(), s));
         Checks {
             max_penetration_m: self.run.deepest,
-            max_blade_angle_rad: self.widest_until(s),
-            energy_residual_j: Some(flow.machine.casing_mass * residual),
+            max_blade_angle_rad: self.widest_until(self.elapsed(self.run.clock.now)),
+            energy_residual_j: Some(self.account_now().residual()),
             ..Checks::default()
         }
     }
 
     fn energy_account(&self) -> Option<EnergyAccount> {
-        let (s, mass) = (self.elapsed(self.run.clock.now), self.flow.machine.casing_mass);
-        let energies = (self.beyond && self.run.checked).then(|| self.energies_now())?;
-        let stored = self.flow.energy(&self.point_now(), s) - energies.start;
-        Some(EnergyAccount {
-            pulse_work_j: mass * energies.pulse,
-            // The rotor works against friction even with the casing at rest; that part is entirely
-            // heat.
-            rotor_work_j: mass * (energies.rotor + energies.sliding),
-            growth_work_j: mass * energies.growth,
-            casing_loss_j: mass * energies.casing,
-            blade_loss_j: mass * energies.blades,
-            friction_heat_j: mass * (energies.sliding - energies.dragged),
-            impact_loss_j: mass * energies.impacts,
-            stored_j: mass * stored,
-        })
+        (self.beyond && self.ledger.counts).then(|| self.account_now())
     }
 
     fn forgo_checks(&mut self) {
-        self.run.checked = false;
+        self.ledger.counts = false;
     }
 
     fn fire(&mut self) {

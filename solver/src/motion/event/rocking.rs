@@ -82,7 +82,7 @@ impl Events {
             self.fail_at(point, FailureReason::Singular { rows: 2 });
             return;
         };
-        self.energies.impacts += before - self.flow.energy(point, 0.0);
+        self.ledger.sums.impact_loss_j += before - self.flow.energy(point, 0.0);
         self.run.hold(ActiveSet::Nothing.with(rows[0] as u32));
         self.opened.retain(|gap| !rows.contains(&gap.row));
         self.rest = std::sync::OnceLock::new();

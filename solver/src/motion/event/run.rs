@@ -74,8 +74,6 @@ pub(super) struct Run {
     pub deepest: f64,
     /// Largest blade angle \[rad\].
     pub widest: f64,
-    /// Whether energies, the largest angle and the deepest penetration are recorded.
-    pub checked: bool,
     /// Failure that ended the run; `None` if it has not failed.
     pub failure: Option<Failure>,
 }
@@ -92,7 +90,6 @@ impl Run {
             looks: 0,
             deepest: 0.0,
             widest: 0.0,
-            checked: true,
             failure: None,
         }
     }

@@ -152,8 +152,8 @@ impl Events {
             return None;
         }
         let flow = &self.flow;
-        if self.run.checked {
-            self.energies.book(flow, &self.held, &self.stretch, s);
+        if self.ledger.counts {
+            self.ledger.sums.book(flow, &self.held, &self.stretch, s);
             self.run.widest = self.widest_until(s);
             let [travel, reach] = self.stretch.travel;
             if reach + travel >= flow.least_clearance() {
@@ -209,7 +209,7 @@ impl Events {
         change(self, &mut point);
         let jump = before - self.flow.nu;
         point.dz += Plane::i() * point.z * jump;
-        self.energies.start += self.flow.energy(&point, 0.0) - energy;
+        self.ledger.start += self.flow.energy(&point, 0.0) - energy;
         for gap in &mut self.opened {
             gap.rate += self.flow.face(gap.row, &point).along(point.dz - rate, Plane::default());
         }
@@ -260,9 +260,9 @@ impl Events {
             (point.z, point.a) = (point.z * part, point.a * part);
         }
         let after = flow.energy(point, 0.0);
-        self.energies.rotor += stiffened - before;
-        self.energies.growth += after - stiffened;
-        self.energies.start -= after - before;
+        self.ledger.sums.rotor_work_j += stiffened - before;
+        self.ledger.sums.growth_work_j += after - stiffened;
+        self.ledger.start -= after - before;
         flow.turn_at(speed, ramp);
     }
 }

@@ -29,7 +29,7 @@ mod strides;
 use std::sync::Arc;
 
 use super::lasting::Lasting;
-use super::{Failure, Plane, across};
+use super::{Failure, Ledger, Plane, across};
 use crate::model::Machine;
 use crate::numeric::lcp::Lcp;
 use crate::scene::{CheckedScene, ContactLaw};
@@ -37,7 +37,7 @@ use disk::Disk;
 use drive::Drive;
 use lining::Lining;
 use oscillator::{Coordinate, Oscillator};
-use record::{Ledger, Record};
+use record::Record;
 pub(super) use row::turned;
 use row::{Row, TipLaw, Tips};
 use step::LONG_STEP;

@@ -1,8 +1,8 @@
-//! Records of a motion in steps: contacts, impulses and penetrations, and the energy account.
+//! Records of a motion in steps: contacts, impulses and penetrations.
 
 use crate::model::ContactPolygon;
 use crate::motion::contacts::in_phase_order;
-use crate::motion::{ActiveSet, ContactLog, EnergyAccount};
+use crate::motion::{ActiveSet, ContactLog};
 
 /// Steps without contact before a contact counts as broken: the impact of the
 /// scheme takes two steps, and its rounding may open one step between them.
@@ -132,16 +132,6 @@ impl Record {
         self.told = std::mem::take(&mut of.told);
         self.told_until = of.told_until;
     }
-}
-
-/// Energy account of a motion under way.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ledger {
-    pub sums: EnergyAccount,
-    /// Energy at the start plus the energy that changes from outside have added \[J\].
-    pub start: f64,
-    /// Whether the account is kept: beyond the paper, unless only a verdict is asked for.
-    pub counts: bool,
 }
 
 #[cfg(test)]
