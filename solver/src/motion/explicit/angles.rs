@@ -29,18 +29,18 @@ impl Disk {
     /// Calls `put` with the angle of each row of a disk with more than a pair of modes \[rad\].
     pub fn all_angles(&mut self, mut put: impl FnMut(usize, f64)) {
         let (rows, per_row) = self.rows();
-        let (members, _) = self.angles_within(0.0);
+        let (angles, _) = self.angles_within(0.0);
         for row in 0..rows {
-            let each = (0..per_row as usize).map(|k| members[(row + k * rows) % members.len()]);
+            let each = (0..per_row as usize).map(|k| angles[row + k * rows]);
             put(row, each.sum::<f64>() / f64::from(per_row));
         }
     }
 
-    /// Returns the angles of the distinct blades of such a disk, and how far each may have turned
-    /// since, at most `slack` \[rad\].
+    /// Returns the angles of the blades of such a disk, and how far each may have turned since, at most
+    /// `slack` \[rad\].
     pub fn angles_within(&mut self, slack: f64) -> (&[f64], f64) {
         if self.seen.slack > slack {
-            let angles = self.every_member();
+            let angles = self.every_angle();
             let largest = angles.iter().copied().map(size).fold(0.0, f64::max);
             self.seen = Seen { angles, largest, slack: 0.0 };
         }

@@ -181,7 +181,7 @@ impl Explicit {
         let theta = self.drive.rotor.angle(self.drive.time_of(self.n));
         let turn = self.turn_now();
         let z = self.place(turn);
-        let angles = self.disk.every_angle(self.machine.polygon.blades);
+        let angles = self.disk.every_angle();
         let risen =
             |blade: u32| self.tips.rise * angles.get(blade as usize).copied().unwrap_or(0.0);
         let Some((x, y)) = self.machine.nearest_open((z.re, z.im), theta, risen) else { return };

@@ -57,9 +57,9 @@ pub(super) struct Disk {
 }
 
 impl Disk {
-    /// Creates the disk of a scene at rest; at most `alike` blades share one coordinate.
-    pub fn new(scene: &Scene, machine: &Machine, alike: u32) -> Self {
-        let (fixed, oscillators) = Fixed::new(scene, machine, alike);
+    /// Creates the disk of a scene at rest.
+    pub fn new(scene: &Scene, machine: &Machine) -> Self {
+        let (fixed, oscillators) = Fixed::new(scene, machine);
         let mut modes = vec![Modes::default(); fixed.blades.width()];
         for (m, oscillator) in oscillators.iter().enumerate() {
             let (four, lane) = (&mut modes[m / 4], m % 4);
@@ -77,18 +77,12 @@ impl Disk {
         Self { modes, oscillators, fixed, driven, seen: Seen::NOTHING, widest: 0, largest: 0.0 }
     }
 
-    /// Returns the disk with these coordinates and the parameters of another scene. Blades that have
-    /// moved differently keep their own coordinates.
+    /// Returns the disk with these coordinates and the parameters of another scene.
     pub fn with_parameters(&self, scene: &Scene, machine: &Machine) -> Self {
-        let mut disk = Self::new(scene, machine, self.fixed.alike);
+        let mut disk = Self::new(scene, machine);
         for m in 0..disk.fixed.labels.len() {
-            let label = disk.fixed.labels[m];
-            let known = match self.fixed.labels.get(m) {
-                Some(same) if *same == label => Some(m),
-                _ => self.fixed.labels.iter().position(|same| *same == label),
-            };
-            if let Some(old) = known {
-                disk.put(m, self.at(old));
+            if self.fixed.labels.get(m) == disk.fixed.labels.get(m) {
+                disk.put(m, self.at(m));
             }
         }
         disk.largest = self.largest;
@@ -97,8 +91,8 @@ impl Disk {
 
     /// Returns the number of coordinates that a step updates.
     pub fn coordinates(&self) -> usize {
-        let members = self.fixed.labels.len();
-        if self.is_tuned() { members } else { 8 * members }
+        let modes = self.fixed.labels.len();
+        if self.is_tuned() { modes } else { 8 * modes }
     }
 
     /// Returns the number of rows, and the blades of each.
@@ -140,12 +134,12 @@ impl Disk {
 
     /// Adds the torques of the extra springs.
     fn pull_springs(&mut self) {
-        let mut torques = self.every_member();
+        let mut torques = self.every_angle();
         torques.iter_mut().zip(&self.fixed.springs).for_each(|(angle, spring)| *angle *= -spring);
-        self.feel_members(&torques);
+        self.feel_blades(&torques);
     }
 
-    fn feel_members(&mut self, torques: &[f64]) {
+    fn feel_blades(&mut self, torques: &[f64]) {
         let modes = &mut self.modes;
         self.fixed.blades.feel(torques, |m, felt| modes[m / 4].felt[m % 4] += felt);
     }
@@ -153,14 +147,12 @@ impl Disk {
     /// Adds torques on all rows, which act on the next step \[N m\].
     pub fn feel(&mut self, torques: &[f64]) {
         if Arc::ptr_eq(&self.fixed.blades, &self.fixed.rows) {
-            return self.feel_members(torques);
+            return self.feel_blades(torques);
         }
-        let (members, rows) = (self.fixed.blades.count(), self.fixed.rows.count());
-        let mut shared = vec![0.0; members];
-        for blade in 0..rows * self.fixed.per_row as usize {
-            shared[blade % members] += torques[blade % rows] / f64::from(self.fixed.per_row);
-        }
-        self.feel_members(&shared);
+        let (rows, each) = self.rows();
+        let blade = |blade: usize| torques[blade % rows] / f64::from(each);
+        let shared: Vec<f64> = (0..self.fixed.blades.count()).map(blade).collect();
+        self.feel_blades(&shared);
     }
 
     /// Adds torques on the two modes of a pair, which act on the next step \[N m\].
@@ -289,15 +281,9 @@ impl Disk {
             .map(|mode| mode.map_or(0.0, |(m, sign)| sign * of(&self.modes[m / 4])[m % 4]))
     }
 
-    /// Returns the angles of blades that differ.
-    pub(super) fn every_member(&self) -> Vec<f64> {
-        self.fixed.blades.all(|m| self.modes[m / 4].x[m % 4])
-    }
-
     /// Returns the angle of every blade \[rad\].
-    pub fn every_angle(&self, blades: u32) -> Vec<f64> {
-        let members = self.every_member();
-        (0..blades as usize).map(|blade| members[blade % members.len()]).collect()
+    pub fn every_angle(&self) -> Vec<f64> {
+        self.fixed.blades.all(|m| self.modes[m / 4].x[m % 4])
     }
 
     /// Returns the displacements of the modes of a pair.
@@ -391,7 +377,7 @@ impl Disk {
             return 0.5 * twice;
         }
         let moved = self.fixed.blades.all(|m| self.modes[m / 4].increment[m % 4]);
-        let each = self.fixed.springs.iter().zip(self.every_member().into_iter().zip(moved));
+        let each = self.fixed.springs.iter().zip(self.every_angle().into_iter().zip(moved));
         let springs: f64 = each.map(|(spring, (x, moved))| spring * x * (x - moved)).sum();
         0.5 * (twice + springs)
     }

@@ -230,11 +230,6 @@ impl EngineOrderTorque {
         (amplitude != 0.0).then_some(Self { amplitude, order, blades })
     }
 
-    /// Returns the engine order.
-    pub fn order(&self) -> u32 {
-        self.order
-    }
-
     /// Returns whether it excites modes with this number of nodal diameters.
     pub fn drives(&self, diameters: u32) -> bool {
         let (k, order) = (diameters % self.blades, self.order % self.blades);

@@ -1,13 +1,8 @@
-//! Data of the bladed disk that is constant during a run: its modes, the blades that move alike, the
+//! Data of the bladed disk that is constant during a run: its modes, their shapes at the blades, the
 //! rows, and the extra springs of a mistuned disk.
-//!
-//! If tips and stiffnesses are equal and `d` divides the number of blades, the nodal diameters of the
-//! casing and the engine order, blades `N/d` apart always move alike: `d` of them share one
-//! coordinate, and only modes whose nodal diameters are multiples of `d` are excited.
 
 use std::sync::Arc;
 
-use super::drive::EngineOrderTorque;
 use super::oscillator::Oscillator;
 use super::shapes::{Label, Shapes};
 use crate::model::{ContactPolygon, Machine, blade_frequency, gcd};
@@ -20,11 +15,9 @@ pub(super) struct Fixed {
     pub labels: Vec<Label>,
     /// Squared frequency of each mode at standstill \[rad^2/s^2\].
     pub still: Vec<f64>,
-    /// Shapes at blades that differ, and at rows.
+    /// Shapes at the blades, and at the rows.
     pub blades: Arc<Shapes>,
     pub rows: Arc<Shapes>,
-    /// Number of blades that move alike and share one entry of `blades`.
-    pub alike: u32,
     pub per_row: u32,
     /// Phases of the blades in the modes of a pair.
     pub phases: ContactPolygon,
@@ -42,25 +35,17 @@ pub(super) struct Fixed {
 
 impl Fixed {
     /// Creates the data and the oscillators of the modes.
-    pub fn new(scene: &Scene, machine: &Machine, most_alike: u32) -> (Self, Vec<Oscillator>) {
+    pub fn new(scene: &Scene, machine: &Machine) -> (Self, Vec<Oscillator>) {
         let (disk, polygon) = (&scene.disk_in_use(), &machine.polygon);
         let (blades, group) = (polygon.blades, polygon.blades_per_side);
         let diameters = disk.diameters_beside(polygon.nodal_diameters);
         let springs = springs(scene);
-        let driven = EngineOrderTorque::of(scene).map_or(0, |torque| torque.order());
-        let alike = match scene.solver.model {
-            ModelSize::Rigid => blades,
-            ModelSize::Modal => gcd(blades, diameters),
-            ModelSize::Full if machine.is_uneven() || !springs.is_empty() => 1,
-            ModelSize::Full => gcd(gcd(group, driven), most_alike),
-        };
         let per_row = match scene.solver.model {
             _ if machine.is_uneven() => 1,
             // Tips without a slope share a push evenly, as only their sum is determined.
             _ if machine.radial_coupling == 0.0 => group,
             ModelSize::Rigid => group,
             ModelSize::Modal => gcd(group, diameters),
-            ModelSize::Full if springs.is_empty() => alike,
             ModelSize::Full => 1,
         };
         let label = |diameters: u32, is_sine: bool| {
@@ -74,12 +59,12 @@ impl Fixed {
         let labels: Vec<Label> = match scene.solver.model {
             ModelSize::Rigid => Vec::new(),
             ModelSize::Modal => both(diameters),
-            ModelSize::Full => (0..=blades / alike / 2).flat_map(|k| both(alike * k)).collect(),
+            ModelSize::Full => (0..=blades / 2).flat_map(both).collect(),
         };
         let is_pair = scene.solver.model != ModelSize::Full;
-        let members = Arc::new(Shapes::new(&labels, blades, alike, blades / alike, !is_pair));
-        let rows = if per_row == alike {
-            members.clone()
+        let every = Arc::new(Shapes::new(&labels, blades, 1, blades, !is_pair));
+        let rows = if per_row == 1 {
+            every.clone()
         } else {
             Arc::new(Shapes::new(&labels, blades, per_row, blades / per_row, false))
         };
@@ -87,14 +72,14 @@ impl Fixed {
         // A torque on row 0 or on blade 0, felt by the modes; the disk is the same from any row.
         let turned = |shapes: &Shapes| {
             let first = shapes.row(0);
-            members.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
+            every.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
         };
         let (mut influence, mut most_turned) = (Vec::new(), 0.0);
         if !is_pair {
-            most_turned = turned(&members).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
+            most_turned = turned(&every).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
             let (turned, count) = (turned(&rows), rows.count());
             let mean = |row: usize| {
-                let each = (0..per_row as usize).map(|k| turned[(row + k * count) % turned.len()]);
+                let each = (0..per_row as usize).map(|k| turned[row + k * count]);
                 each.sum::<f64>() / f64::from(per_row)
             };
             influence = (0..count).map(mean).collect();
@@ -109,9 +94,8 @@ impl Fixed {
                 false => shown(&labels, blades, polygon.nodal_diameters),
             },
             labels,
-            blades: members,
+            blades: every,
             rows,
-            alike,
             per_row,
             phases: ContactPolygon::new(blades, diameters, 1.0),
             is_pair,

@@ -99,7 +99,7 @@ impl Explicit {
     /// acts at the start: otherwise the second order is lost.
     pub(super) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
-        let mut disk = Disk::new(scene, &machine, 0);
+        let mut disk = Disk::new(scene, &machine);
         let tips_of_rows = Tips::new(&machine, disk.rows().0);
         let drive = Drive::of(scene, tips_of_rows.lobes);
         disk.begin_driven(drive.driven(0));

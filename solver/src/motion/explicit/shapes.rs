@@ -60,8 +60,8 @@ impl fmt::Debug for Transforms {
 }
 
 impl Shapes {
-    /// Creates the shapes at `count` places of `each` blades. `is_ring`: these are all modes that
-    /// such places can have, in order of their diameters.
+    /// Creates the shapes at `count` places of `each` blades. `is_ring`: the places are single blades,
+    /// and these are all their modes, in order of their diameters.
     pub fn new(labels: &[Label], blades: u32, each: u32, count: u32, is_ring: bool) -> Self {
         let (count, width) = (count as usize, labels.len().div_ceil(4));
         let ring = (is_ring && count >= SHAPES_TRANSFORMED).then(|| {
@@ -129,7 +129,7 @@ impl Shapes {
         let mut spectrum = vec![Plane::default(); self.count / 2 + 1];
         for (m, label) in self.labels.iter().enumerate() {
             let half = if label.is_alone { 1.0 } else { 0.5 };
-            let place = &mut spectrum[(label.diameters / self.each) as usize];
+            let place = &mut spectrum[label.diameters as usize];
             if label.is_sine { place.im -= half * x(m) } else { place.re += half * x(m) }
         }
         let mut angles = vec![0.0; self.count];
@@ -154,7 +154,7 @@ impl Shapes {
             (torques.to_vec(), vec![Plane::default(); self.count / 2 + 1]);
         let _ = ring.to_modes.process(&mut room, &mut spectrum);
         for (m, label) in self.labels.iter().enumerate() {
-            let of = spectrum[(label.diameters / self.each) as usize];
+            let of = spectrum[label.diameters as usize];
             add(m, if label.is_sine { -of.im } else { of.re });
         }
     }

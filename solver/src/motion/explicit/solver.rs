@@ -116,7 +116,7 @@ impl Solver for Explicit {
     }
 
     fn blade_angles(&self) -> Vec<f64> {
-        self.disk.every_angle(self.machine.polygon.blades)
+        self.disk.every_angle()
     }
 
     fn multipliers(&self) -> Vec<(u32, f64)> {

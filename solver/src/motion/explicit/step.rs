@@ -212,7 +212,7 @@ impl Explicit {
         }
         let slack = TIP_SLACK * (self.tips.clearance / rise).abs();
         let (angles, slack) = self.disk.angles_within(slack);
-        rise * angles[row % angles.len()] + rise.abs() * slack
+        rise * angles[row] + rise.abs() * slack
     }
 
     /// Makes a row of a tip, if it is less than `reach` from its target.
