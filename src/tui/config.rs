@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use etcetera::{BaseStrategy, choose_base_strategy};
 use serde::{Deserialize, Serialize};
+use toml::Table;
 
 use super::app::App;
 use super::app::layout::MOST_BESIDE;
@@ -27,28 +28,19 @@ const MOST_BYTES: u64 = 64 * 1024;
 #[serde(default)]
 pub struct Config {
     /// Theme saved in the file, by a key press or by hand; `None` if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub theme: Option<ThemeChoice>,
     /// Marker of the curves saved in the file, by a key press or by hand; `None` if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub marker: Option<Marker>,
     /// Number of small charts next to the large one; `None` for the default.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub charts: Option<usize>,
     /// Whether the explorer uses the mouse; `None` counts as true.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mouse: Option<bool>,
     /// Whether the user has pressed a key and so no longer sees the line for new users.
     pub introduced: bool,
     /// Units in which numbers are shown.
-    #[serde(skip_serializing_if = "Units::are_usual")]
     pub units: Units,
     /// Steps of the lessons that the user has completed.
-    #[serde(skip_serializing_if = "LessonsDone::is_empty")]
     pub steps_done: LessonsDone,
-    /// Fields that this version does not know. They are written back unchanged.
-    #[serde(flatten)]
-    pub others: toml::Table,
 }
 
 /// Units for display.
@@ -56,7 +48,6 @@ pub struct Config {
 #[serde(default, expecting = "for units a table: units.speed = \"rpm\" or \"rad/s\"")]
 pub struct Units {
     /// Unit in which speeds are shown; `None` for rad/s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<SpeedUnit>,
 }
 
@@ -69,12 +60,6 @@ pub enum SpeedUnit {
     /// Radians per second.
     #[serde(rename = "rad/s")]
     Radians,
-}
-
-impl Units {
-    fn are_usual(&self) -> bool {
-        *self == Self::default()
-    }
 }
 
 impl Config {
@@ -91,41 +76,40 @@ impl Config {
             introduced: !app.dialogue.is_new,
             units: Units { speed: Some(speed) },
             steps_done: app.lessons.done.clone(),
-            others: toml::Table::new(),
         }
     }
 
-    fn read(path: &Path) -> Result<Self, String> {
+    /// Reads the file: the settings, and all its fields, also those that this version does not know.
+    fn read(path: &Path) -> Result<(Self, Table), String> {
         match path.metadata() {
             // Reading a pipe could block forever.
             Ok(found) if !found.is_file() => return Err("it is not a file".into()),
-            Err(_) => return Ok(Self::default()),
+            Err(_) => return Ok(Default::default()),
             Ok(_) => {}
         }
         let text = file::read_text(path, MOST_BYTES).map_err(|error| error.to_string())?;
-        let read: Self = toml::from_str(&text).map_err(|error| error.message().to_string())?;
-        Ok(Self { charts: read.charts.map(|count| count.min(MOST_BESIDE)), ..read })
+        let told = |error: toml::de::Error| error.message().to_string();
+        let (read, fields): (Self, Table) =
+            (toml::from_str(&text).map_err(told)?, toml::from_str(&text).map_err(told)?);
+        Ok((Self { charts: read.charts.map(|count| count.min(MOST_BESIDE)), ..read }, fields))
     }
 
-    fn write(&self, path: &Path) -> std::io::Result<()> {
-        // TOML needs plain values before tables; converting to a `Table` sorts them.
-        let table = toml::Table::try_from(self).map_err(std::io::Error::other)?;
-        if let Some(folder) = path.parent() {
-            std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)?;
-        }
-        let write = |out: &mut dyn Write| out.write_all(table.to_string().as_bytes());
-        if path.symlink_metadata().is_ok() {
-            file::replace(path, write).map(drop)
-        } else {
-            file::create(path, write)
-        }
+    /// Returns the fields of the file; none for a setting that is not known.
+    fn fields(&self) -> Table {
+        Table::try_from(self).unwrap_or_default()
     }
 }
 
-/// Overwrites the stored setting only if it changed during this session.
-fn keep_if_changed<T: PartialEq>(began: &T, ended: T, kept: &mut T) {
-    if ended != *began {
-        *kept = ended;
+/// Writes the fields of the config file, in a folder that is created if needed.
+fn write(fields: &Table, path: &Path) -> std::io::Result<()> {
+    if let Some(folder) = path.parent() {
+        std::fs::DirBuilder::new().recursive(true).mode(0o700).create(folder)?;
+    }
+    let write = |out: &mut dyn Write| out.write_all(fields.to_string().as_bytes());
+    if path.symlink_metadata().is_ok() {
+        file::replace(path, write).map(drop)
+    } else {
+        file::create(path, write)
     }
 }
 
@@ -144,8 +128,8 @@ pub struct Memory {
     pub config: Config,
     /// Message on why the file was not used; `None` if it was read or does not exist.
     pub complaint: Option<String>,
-    /// Settings of the explorer at the start, to detect changes; `None` before [`Self::prepare`].
-    began: Option<Config>,
+    /// Fields of the settings at the start, to detect changes; none before [`Self::prepare`].
+    began: Table,
 }
 
 impl Memory {
@@ -170,16 +154,16 @@ impl Memory {
     }
 
     fn at(path: Option<PathBuf>) -> Self {
-        let read = path.as_deref().map_or_else(|| Ok(Config::default()), Config::read);
+        let read = path.as_deref().map_or_else(|| Ok(Default::default()), Config::read);
         let (config, complaint) = match read {
-            Ok(config) => (config, None),
+            Ok((config, _)) => (config, None),
             Err(why) => {
                 (Config::default(), Some(clean(&format!("config.toml is not used: {why}"))))
             }
         };
         // A file with an error is not overwritten, so that the user can repair it.
         let path = path.filter(|_| complaint.is_none());
-        Self { path, config, complaint, began: None }
+        Self { path, config, complaint, began: Table::new() }
     }
 
     /// Applies the stored settings to the explorer, and notes the state from which changes count.
@@ -192,21 +176,23 @@ impl Memory {
         app.mouse.on &= self.config.mouse.unwrap_or(true);
         app.dialogue.is_new = self.path.is_some() && !self.config.introduced;
         app.status.clone_from(&self.complaint);
-        self.began = Some(Config::of(app));
+        self.began = Config::of(app).fields();
     }
 
     /// Writes the settings that changed during the session. Returns the message if that fails;
     /// `None` if it succeeds, nothing is remembered, or the disk takes longer than `patience`.
     pub fn keep(self, app: &App, patience: Duration) -> Option<String> {
         let path = self.path.clone()?;
-        let ended = Config::of(app);
+        let mut ended = Config::of(app);
         let (done, wait) = channel();
         let work = move || {
             // Read again, because another explorer may have written the file meanwhile.
-            let kept = Config::read(&path).and_then(|config| {
-                let changed = self.changed(config.clone(), ended);
-                let is_new = changed != config;
-                let written = if is_new { changed.write(&path) } else { Ok(()) };
+            let kept = Config::read(&path).and_then(|(config, before)| {
+                ended.steps_done.join(config.steps_done);
+                let mut fields = before.clone();
+                let is_new = |(key, value): &(String, _)| self.began.get(key) != Some(value);
+                fields.extend(ended.fields().into_iter().filter(is_new));
+                let written = if fields == before { Ok(()) } else { write(&fields, &path) };
                 written.map_err(|error| error.to_string())
             });
             let failed =
@@ -216,18 +202,6 @@ impl Memory {
         };
         std::thread::Builder::new().name(FILES_NAME.into()).spawn(work).ok()?;
         wait.recv_timeout(patience).ok()?
-    }
-
-    fn changed(&self, mut config: Config, ended: Config) -> Config {
-        config.steps_done.join(ended.steps_done);
-        config.introduced |= ended.introduced;
-        let Some(began) = &self.began else { return config };
-        keep_if_changed(&began.theme, ended.theme, &mut config.theme);
-        keep_if_changed(&began.marker, ended.marker, &mut config.marker);
-        keep_if_changed(&began.charts, ended.charts, &mut config.charts);
-        keep_if_changed(&began.mouse, ended.mouse, &mut config.mouse);
-        keep_if_changed(&began.units, ended.units, &mut config.units);
-        config
     }
 }
 

@@ -48,22 +48,6 @@ pub struct ExploreOptions {
     pub source: Option<Source>,
 }
 
-impl Default for ExploreOptions {
-    fn default() -> Self {
-        Self {
-            fps: 10.0,
-            color: Color::Auto,
-            theme: None,
-            marker: None,
-            mouse: true,
-            line: Line::Auto,
-            config: true,
-            rpm: false,
-            source: None,
-        }
-    }
-}
-
 impl ExploreOptions {
     /// Returns the theme to use. Options take precedence over environment variables, whose values
     /// `variable` returns, and these over the config file.
@@ -109,6 +93,22 @@ mod tests {
     use super::*;
     use crate::tui::Theme;
     use crate::tui::ground::Ground;
+
+    impl Default for ExploreOptions {
+        fn default() -> Self {
+            Self {
+                fps: 10.0,
+                color: Color::Auto,
+                theme: None,
+                marker: None,
+                mouse: true,
+                line: Line::Auto,
+                config: true,
+                rpm: false,
+                source: None,
+            }
+        }
+    }
 
     fn theme(options: ExploreOptions, config: Option<ThemeChoice>, no_color: &str) -> Theme {
         let config = Config { theme: config, ..Config::default() };

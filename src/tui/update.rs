@@ -218,8 +218,9 @@ impl App {
                     ["the same pace all the time", "slower at changes of contact, faster between"];
                 self.status = flipped(&mut self.play.tempo.slow_at_events, said);
             }
-            Command::Slower => self.play.tempo.rate = (self.play.tempo.rate - 1).max(SLOWEST),
-            Command::Faster => self.play.tempo.rate = (self.play.tempo.rate + 1).min(0),
+            Command::Faster(by) => {
+                self.play.tempo.rate = (self.play.tempo.rate + by).clamp(SLOWEST, 0);
+            }
             Command::Restart => {
                 self.stop_reading();
                 self.restart();
@@ -231,8 +232,7 @@ impl App {
             Command::PageBack => self.pan(true),
             Command::PageForward => self.pan(false),
             Command::View(view) => self.walk(view),
-            Command::NextView => self.walk(self.layout.neighbour(1)),
-            Command::PreviousView => self.walk(self.layout.neighbour(-1)),
+            Command::NextView(by) => self.walk(self.layout.neighbour(by)),
             Command::Charts => self.layout.beside = (self.layout.beside + 1) % (MOST_BESIDE + 1),
             Command::FullScreen => self.layout.full_screen = !self.layout.full_screen,
             Command::Autoscale => {

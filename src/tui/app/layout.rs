@@ -113,13 +113,14 @@ impl App {
         let Layout { size: (width, height), beside, .. } = self.layout;
         let fits = (OVERVIEW.0..WIDE).contains(&width) && height >= OVERVIEW.1;
         let usual = beside == MOST_BESIDE && self.lessons.progress.is_none();
-        fits && usual && !self.is_alone() && ViewId::OVERVIEW.contains(&self.view())
+        let is_one = self.view() != ViewId::Margins && ViewId::OVERVIEW.contains(&self.view());
+        fits && usual && !self.is_alone() && is_one
     }
 
     /// Returns whether the layout includes `view`; a small screen may still leave no room for it.
     pub fn is_open(&self, view: ViewId) -> bool {
         if self.is_overview() {
-            return view == ViewId::Margins || ViewId::OVERVIEW.contains(&view);
+            return ViewId::OVERVIEW.contains(&view);
         }
         let shown = if self.is_alone() { 1 } else { 1 + self.layout.beside };
         self.layout.shown().take(shown).any(|other| other == view)
@@ -163,8 +164,6 @@ pub struct Places {
     pub list: Option<Rect>,
     /// The views on the screen with their areas.
     pub charts: Vec<(ViewId, Rect)>,
-    /// What ends the lock; `None` except in the overview.
-    pub ends: Option<Rect>,
     /// The current lesson; `None` if none is open, or the screen is too low for it.
     pub lesson: Option<Rect>,
     /// Status message or keys.
@@ -188,17 +187,15 @@ pub fn places(area: Rect, app: &App) -> Places {
     let fits = charts.width >= PAIR_FROM && lesson.is_none();
     let listed = !column && fits && app.knobs.selected >= strip::count(app, knobs.width);
     let list = listed.then(|| halves(charts)[1]);
-    let mut ends = None;
     let charts = if app.is_alone() {
         vec![(app.view(), charts)]
     } else if app.is_overview() {
-        let [top, bottom] = below(charts, charts.height / 2).map(halves);
-        ends = Some(bottom[1]);
-        ViewId::OVERVIEW.into_iter().zip([top[0], top[1], bottom[0]]).collect()
+        let rows = below(charts, charts.height / 2).map(halves);
+        ViewId::OVERVIEW.into_iter().zip(rows.concat()).collect()
     } else {
         split(charts, app)
     };
-    Places { header, body, knobs, column, list, charts, ends, lesson, footer }
+    Places { header, body, knobs, column, list, charts, lesson, footer }
 }
 
 /// Splits an area into its left and its right half, with a gap between them. The right one is a

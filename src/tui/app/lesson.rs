@@ -51,19 +51,15 @@ impl App {
     /// met.
     pub fn check_lesson(&mut self) {
         let Some((step, now)) = self.lesson_step() else { return };
-        if now.done || self.is_asked() {
+        let meets = || step.until.as_ref().is_none_or(|condition| self.meets(condition));
+        if now.done || self.is_asked() || !meets() {
             return;
         }
-        let done = step.until.as_ref().is_none_or(|condition| self.meets(condition));
-        if !done {
-            return;
-        }
-        if let Some(now) = self.lessons.progress.as_mut().and_then(LessonProgress::now_mut) {
-            now.done = true;
-        }
-        if let Some((lesson, progress)) = self.current_lesson() {
-            let step = progress.step;
-            self.lessons.done.add(lesson, step);
+        if let Some(progress) = &mut self.lessons.progress {
+            progress.now_mut().into_iter().for_each(|now| now.done = true);
+            if let Some(lesson) = lessons::all().get(progress.lesson) {
+                self.lessons.done.add(lesson, progress.step);
+            }
         }
     }
 

@@ -112,7 +112,7 @@ impl App {
             return failure.clone();
         }
         if self.has_lining() {
-            return self.in_the_lining();
+            return self.in_the_lining(&moment.gaps);
         }
         match moment.active_set {
             ActiveSet::Nothing => "no contact".into(),
@@ -243,13 +243,6 @@ impl App {
         }
     }
 
-    /// Returns the blade deepest in the lining at the time shown, and its (negative) gap \[m\];
-    /// `None` if no blade is in it.
-    pub fn deepest(&self) -> Option<(u32, f64)> {
-        let gaps = (1..).zip(self.shown()?.gaps.iter().copied());
-        gaps.filter(|(_, gap)| *gap < 0.0).min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
     /// Describes a gap \[m\]: the distance to the casing, or the depth in the lining if negative.
     pub fn gap_words(&self, gap: f64) -> String {
         match self.has_lining() && gap < 0.0 {
@@ -260,21 +253,16 @@ impl App {
     }
 
     /// Describes which blades are in the lining, and the deepest one.
-    pub fn in_the_lining(&self) -> String {
-        let touching = self.touching_blades();
-        let all = self.machine.polygon.blades as usize;
-        let who = match touching.as_slice() {
-            [] => return "no contact".into(),
-            [blade] => format!("blade {blade}"),
-            some if some.len() == all => "all blades".into(),
-            some => format!("{} blades", some.len()),
-        };
-        match self.deepest() {
-            Some((_, gap)) if touching.len() == 1 => format!("{who}, {}", self.gap_words(gap)),
+    fn in_the_lining(&self, gaps: &[f64]) -> String {
+        let touching = (1..).zip(gaps).filter(|(_, gap)| **gap < 0.0);
+        let count = touching.clone().count();
+        match touching.min_by(|a, b| a.1.total_cmp(b.1)) {
+            None => "no contact".into(),
+            Some((blade, gap)) if count == 1 => format!("blade {blade}, {}", self.gap_words(*gap)),
             Some((blade, gap)) => {
-                format!("{who}, deepest {blade}: {}", readable(-gap, "m"))
+                let all = if count == gaps.len() { "all".into() } else { count.to_string() };
+                format!("{all} blades, deepest {blade}: {}", readable(-gap, "m"))
             }
-            None => who,
         }
     }
 

@@ -242,20 +242,16 @@ fn both_axes(words: &str) -> Option<Found> {
     Some(Found::of("go", what, Command::Axes([Some(x.path), Some(y.path)])))
 }
 
-/// Returns the numeric knobs that match the words, each as a command that puts it on an axis of the
-/// map: on the horizontal one if `first` is `across`, otherwise on the vertical one.
-fn one_axis(app: &App, first: &str, words: &str) -> Vec<Found> {
-    let words: Vec<&str> = words.split_whitespace().collect();
-    let across = first == "across";
+/// Returns the numeric knobs that match the typed words, each as a command that puts it on an axis
+/// of the map: on the horizontal one if `first` is `across`, otherwise on the vertical one.
+fn one_axis(app: &App, first: &str, typed: &str) -> Vec<Found> {
+    let (kind, is_across) = if first == "across" { ("across", true) } else { ("up", false) };
     let item = |knob: &'static Knob| {
-        let paths = [Some(knob.path).filter(|_| across), Some(knob.path).filter(|_| !across)];
-        let kind = if across { "across" } else { "up" };
-        Found::of(kind, knob.label, Command::Axes(paths)).beside(knob.text(&app.scene))
+        let paths = [Some(knob.path).filter(|_| is_across), Some(knob.path).filter(|_| !is_across)];
+        let axis = Found::of(kind, knob.label, Command::Axes(paths));
+        axis.beside(knob.text(&app.scene)).also(format!("{} {}", knob.path, plain(knob.label)))
     };
-    let mut fitting: Vec<_> =
-        numeric().filter_map(|knob| Some((fit(knob, &words)?, knob))).collect();
-    fitting.sort_by_key(|(fit, _)| *fit);
-    fitting.into_iter().map(|(_, knob)| item(knob)).collect()
+    ranked(numeric().map(item), typed)
 }
 
 /// Parses `t 0.3 ms`, or `0.3 ms` alone, as a simulated time to go to; `None` for any other text.

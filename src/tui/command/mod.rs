@@ -93,10 +93,8 @@ pub enum Command {
     Fire,
     /// Switch whether playback slows down at changes of contact.
     SlowAtEvents,
-    /// Play more slowly.
-    Slower,
-    /// Play faster.
-    Faster,
+    /// Play faster by so many steps, or more slowly.
+    Faster(i32),
     /// Shorten the page of time.
     ZoomIn,
     /// Lengthen the page of time.
@@ -111,10 +109,8 @@ pub enum Command {
     GoTo(f64),
     /// Make a view the large one.
     View(ViewId),
-    /// Make the next view the large one.
-    NextView,
-    /// Make the previous view the large one.
-    PreviousView,
+    /// Make the view so many places after the large one the large one.
+    NextView(i64),
     /// Change the number of charts on the screen.
     Charts,
     /// Show one chart over the whole screen, or all again.

@@ -20,7 +20,7 @@ fn session(path: &Path, does: impl FnOnce(&mut App)) -> App {
 }
 
 fn read(path: &Path) -> Config {
-    Config::read(path).unwrap()
+    Config::read(path).unwrap().0
 }
 
 #[test]

@@ -216,7 +216,10 @@ impl Knob {
 
     /// Describes the allowed values: the words, or the bounds with the unit shown.
     pub fn range_words(&self) -> String {
-        let (factor, unit) = self.bounds_unit();
+        let (factor, unit) = match self.is_of_clearance() {
+            true => (1e3, "mm or % of g0"),
+            false => in_shown_unit(1.0, self.unit()),
+        };
         let words = match self.allowed() {
             Allowed::OneOf(words) => return format!("one of {}", words.join(", ")),
             Allowed::Real { min, max, above } if factor != 1.0 => {
@@ -232,14 +235,6 @@ impl Knob {
     /// Returns whether a share of this length is one of the clearance.
     pub fn is_of_clearance(&self) -> bool {
         self.group == Group::Tips && self.unit() == "m"
-    }
-
-    /// Returns the factor and the unit in which the bounds are told.
-    pub(super) fn bounds_unit(&self) -> (f64, &str) {
-        match self.is_of_clearance() {
-            true => (1e3, "mm or % of g0"),
-            false => in_shown_unit(1.0, self.unit()),
-        }
     }
 
     /// Returns the text typed so far in at most `columns` columns, with a cursor and the unit that

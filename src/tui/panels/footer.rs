@@ -124,16 +124,6 @@ impl Entry {
     }
 }
 
-/// Returns the word for what Enter opens at the cursor; `None` if it opens nothing.
-fn opens(command: &Command) -> Option<&'static str> {
-    match command {
-        Command::OpenRun(_) => Some("open"),
-        Command::JumpTo { .. } => Some("jump"),
-        Command::Select(_) => Some("select"),
-        _ => None,
-    }
-}
-
 /// Returns whether a binding is always shown, at the right end.
 fn is_kept(binding: &Binding) -> bool {
     matches!(binding.command, Command::Palette("") | Command::Help | Command::Leave | Command::Quit)
@@ -142,26 +132,20 @@ fn is_kept(binding: &Binding) -> bool {
 /// Returns the entries at the right end: with words if the message leaves room, otherwise keys
 /// only.
 fn kept(app: &App, width: u16, message: Option<usize>) -> Vec<Entry> {
+    let asked = app.dialogue.mode == InputMode::Leaving;
+    let closes = !asked && (app.has_open() || app.lessons.progress.is_some());
     let entries = |words: bool| {
-        let mut entries: Vec<Entry> = Vec::new();
-        for binding in valid(app.keyboard()).filter(|binding| is_kept(binding)) {
-            let Some((keys, word)) = binding.footer else { continue };
-            let asked = app.dialogue.mode == InputMode::Leaving;
-            let closes = !asked && (app.has_open() || app.lessons.progress.is_some());
+        let has_palette = words && width >= PALETTE_FROM;
+        let kept = valid(app.keyboard()).filter(|binding| is_kept(binding));
+        let kept = kept.filter(|binding| binding.command != Command::Palette("") || has_palette);
+        let entry = |binding: &'static Binding| {
+            let (keys, word) = binding.footer?;
             let word = if closes && binding.command == Command::Leave { "close" } else { word };
-            let known = entries.iter().any(|entry| entry.binding.command == binding.command);
-            if known
-                || (binding.command == Command::Palette("") && !(words && width >= PALETTE_FROM))
-            {
-                continue;
-            }
-            let gap = match (entries.is_empty(), words) {
-                (true, _) => "",
-                (false, true) => GAP,
-                (false, false) => " ",
-            };
-            entries.push(Entry { binding, gap, keys, word: if words { word } else { "" } });
-        }
+            let (gap, word) = if words { (GAP, word) } else { (" ", "") };
+            Some(Entry { binding, gap, keys, word })
+        };
+        let mut entries: Vec<Entry> = kept.filter_map(entry).collect();
+        entries.first_mut().into_iter().for_each(|first| first.gap = "");
         entries
     };
     let whole: usize = entries(true).iter().map(|entry| entry.columns(app)).sum();
@@ -179,9 +163,11 @@ fn keys(app: &App, buffer: &mut Buffer, area: Rect) {
         let word = match binding.command {
             Command::Pause if !app.play.playing => "go on",
             // Most charts have nothing to open at the cursor.
-            Command::Open => match app.opening().and_then(|command| opens(&command)) {
-                Some(word) => word,
-                None => continue,
+            Command::Open => match app.opening() {
+                Some(Command::OpenRun(_)) => "open",
+                Some(Command::JumpTo { .. }) => "jump",
+                Some(Command::Select(_)) => "select",
+                _ => continue,
             },
             _ => word,
         };

@@ -111,15 +111,15 @@ struct Part {
     rank: u8,
     /// Text between the previous part and this one.
     gap: &'static str,
-    pieces: Parts,
+    pieces: Vec<(String, Role)>,
 }
 
 /// Text between two parts that do not belong together.
 const GAP: &str = "   ";
 
 /// Creates a part of one style, separated from the previous one by [`GAP`].
-fn plain(rank: u8, text: String, style: Style) -> Part {
-    Part { rank, gap: GAP, pieces: vec![(text, style)] }
+fn plain(rank: u8, text: String, role: Role) -> Part {
+    Part { rank, gap: GAP, pieces: vec![(text, role)] }
 }
 
 fn second(app: &App, buffer: &mut Buffer, area: Rect) {
@@ -148,15 +148,14 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
         if !line.is_empty() {
             line.push((part.gap.into(), look.style(Role::Quiet)));
         }
-        line.extend(part.pieces.into_iter().map(|(text, style)| (look.spell(&text), style)));
+        line.extend(part.pieces.iter().map(|(text, role)| (look.spell(text), look.style(*role))));
     }
     pieces(buffer, area, 1, &line);
 }
 
 /// Returns the present state: `NOW 12.0 ms held on 12 + 19 ► 200x slower`.
 fn now(app: &App) -> Vec<Part> {
-    let look = &app.appearance;
-    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
+    let (text, quiet) = (Role::Text, Role::Quiet);
     let state = app.state_now();
     let touches = state != "free" && state != "starting";
     let role = match app.failure().is_some() {
@@ -164,28 +163,24 @@ fn now(app: &App) -> Vec<Part> {
         false if touches => Role::Contact,
         false => Role::Text,
     };
-    let go = if app.play.playing { look.either('►', '>') } else { look.either('‖', '=') };
+    let go = if app.play.playing { "►" } else { app.appearance.either("‖", "=") };
     let limit = match app.results().pace.limit {
         Limit::None => "",
         Limit::Solver => " (solver's limit)",
         Limit::Wave => " (slowed: the wave)",
     };
     let time = vec![("NOW ".into(), quiet), (readable(app.now(), "s"), text)];
-    let rate = vec![
-        (go.to_string(), look.style(Role::Focus)),
-        (format!(" {}{limit}", app.rate_text()), quiet),
-    ];
+    let rate = vec![(go.to_string(), Role::Focus), (format!(" {}{limit}", app.rate_text()), quiet)];
     vec![
         Part { rank: 0, gap: GAP, pieces: time },
-        Part { rank: 2, gap: " ", pieces: vec![(state, look.style(role))] },
+        Part { rank: 2, gap: " ", pieces: vec![(state, role)] },
         Part { rank: 7, gap: " ", pieces: rate },
     ]
 }
 
 /// Returns the rotor speed, also as a multiple of its limits: `500 rad/s = 1.71 Ω_c = 1.21 Ω_lock`.
 fn speed(app: &App) -> Vec<Part> {
-    let look = &app.appearance;
-    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
+    let (text, quiet) = (Role::Text, Role::Quiet);
     let arrow = match app.scene.operation.speed_ramp_rad_s2 {
         ramp if ramp > 0.0 => "↑",
         ramp if ramp < 0.0 => "↓",
@@ -232,7 +227,6 @@ fn named_limits(app: &App) -> Vec<(&'static str, Option<f64>)> {
 
 /// Returns the limits of the rotor speed as numbers; `None` if there are none.
 fn limits(app: &App) -> Option<Part> {
-    let quiet = app.appearance.style(Role::Quiet);
     let to = app.lock_window().and_then(|window| window.to);
     let short = |speed| in_tenths(per_speed(speed));
     let known = named_limits(app).into_iter().filter_map(|(name, limit)| Some((name, limit?)));
@@ -247,19 +241,20 @@ fn limits(app: &App) -> Option<Part> {
     {
         listed.push(format!("coincidence {}", short(coincidence)));
     }
-    (!listed.is_empty()).then(|| plain(10, listed.join(", "), quiet))
+    (!listed.is_empty()).then(|| plain(10, listed.join(", "), Role::Quiet))
 }
 
 /// Returns the end of the run and its verdict, which the first line has too: `AT 100 ms locked since
 /// 38.1 µs`.
 fn end(app: &App) -> Vec<Part> {
-    let look = &app.appearance;
-    let (text, quiet) = (look.style(Role::Text), look.style(Role::Quiet));
+    let (text, quiet) = (Role::Text, Role::Quiet);
     let piece = |rank, gap, text| Part { rank, gap, pieces: vec![(text, quiet)] };
     let at = vec![("AT ".into(), quiet), (number(rounded(app.end_s(), 4), "s"), text)];
     let verdict = app.verdict().filter(|_| !app.is_asked());
     let verdict = verdict.map_or("?".into(), |verdict| verdict.to_string());
-    let mut parts = vec![Part { rank: 0, gap: GAP, pieces: at }, piece(5, " ", verdict)];
+    // A reminder takes this place before that of a limit.
+    let rank = if modes(app).is_some() { 5 } else { 0 };
+    let mut parts = vec![Part { rank, gap: GAP, pieces: at }, piece(5, " ", verdict)];
     let Some(run) = app.full_run().filter(|_| !app.is_asked()) else { return parts };
     // Of a whirl or a slip, only the latest change of sides is known; where a tiny change
     // decides, no instant is known at all.
@@ -284,7 +279,7 @@ fn unsure(app: &App) -> Option<Part> {
     } else {
         return None;
     };
-    Some(plain(rank, text, app.appearance.style(Role::Quiet)))
+    Some(plain(rank, text, Role::Quiet))
 }
 
 /// Returns the verdict of the pinned run; `None` if it is that of the current run, or no run is
@@ -292,23 +287,23 @@ fn unsure(app: &App) -> Option<Part> {
 fn baseline(app: &App) -> Option<Part> {
     let word = &app.run.baseline.as_ref()?.word;
     let text = format!("pinned: {word}");
-    (*word != app.verdict_word()).then(|| plain(3, text, app.appearance.style(Role::Text)))
+    (*word != app.verdict_word()).then(|| plain(3, text, Role::Text))
 }
 
 /// Returns reminders of unusual states: the motion is not on the page shown, knobs are live, every
 /// step is taken, and no own mode is known for the number of nodal diameters.
-fn modes(app: &App) -> Vec<Part> {
-    let focus = app.appearance.style(Role::Focus);
+fn modes(app: &App) -> Option<Part> {
     let ((from, to), now) = (app.page(), app.now().min(app.end_s()));
     let word = if now > to { "back" } else { "ahead" };
     let pages = ((now - from) / (to - from) - 1e-9).floor().abs();
-    let is_off = (now < from || now > to) && pages >= 1.0;
-    let pages = is_off.then(|| format!("{pages} {word}"));
-    let live = app.knobs.live.then(|| "LIVE".to_string());
-    let stepped = app.scene.solver.plain.then(|| "PLAIN".to_string());
-    let missing = app.scene.modes_note().map(|_| "own mode: none known of n_d".to_string());
-    let all = pages.into_iter().chain(live).chain(stepped).chain(missing);
-    all.map(|text| plain(1, text, focus)).collect()
+    let modes = [
+        ((now < from || now > to) && pages >= 1.0).then(|| format!("{pages} {word}")),
+        app.knobs.live.then(|| "LIVE".into()),
+        app.scene.solver.plain.then(|| "PLAIN".into()),
+        app.scene.modes_note().map(|_| "n_d: no own mode".into()),
+    ];
+    let modes: Vec<String> = modes.into_iter().flatten().collect();
+    (!modes.is_empty()).then(|| plain(1, modes.join(" "), Role::Focus))
 }
 
 /// Returns the next change of contact and the time until then: `next: impact on 6 in 12 µs`. `None`
@@ -316,7 +311,7 @@ fn modes(app: &App) -> Vec<Part> {
 fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
-    Some(plain(8, format!("next: {what} in {after}"), app.appearance.style(Role::Quiet)))
+    Some(plain(8, format!("next: {what} in {after}"), Role::Quiet))
 }
 
 /// Returns the cost of the run: wall-clock time per step taken, fraction of skipped steps, and
@@ -333,7 +328,7 @@ fn cost(app: &App) -> Option<Part> {
     }
     let [end, run] = [app.scene.solver.end_s, run].map(|time| with_unit(time, 3, "s"));
     parts.push(format!("{end} in {run}"));
-    Some(plain(11, parts.join(", "), app.appearance.style(Role::Quiet)))
+    Some(plain(11, parts.join(", "), Role::Quiet))
 }
 
 #[cfg(test)]

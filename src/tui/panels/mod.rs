@@ -14,8 +14,8 @@ use super::command::Command;
 use super::field::CURSOR;
 use super::text::{CUT, print, wrap};
 use super::theme::Role;
-use super::views::ViewArea;
 use super::views::margins::ends;
+use super::views::{ViewArea, ViewId};
 pub use header::head_text;
 
 /// Draws the whole screen into a frame of the terminal.
@@ -78,10 +78,10 @@ fn main_screen(app: &App, buffer: &mut Buffer, places: &Places) {
         if !at.large {
             app.note(*area, Command::View(*view));
         }
-        app.panel_of(*view).draw(app, buffer, at);
-    }
-    if let Some(area) = places.ends {
-        ends::draw(app, buffer, area);
+        match view {
+            ViewId::Margins if app.is_overview() => ends::draw(app, buffer, at),
+            _ => app.panel_of(*view).draw(app, buffer, at),
+        }
     }
     if let Some(area) = places.list {
         Clear.render(area, buffer);

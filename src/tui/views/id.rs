@@ -40,8 +40,9 @@ const VIEWS: [(ViewId, &str); CHARTS.len()] = [
 ];
 
 impl ViewId {
-    /// The charts of the overview, in the order of the screen.
-    pub const OVERVIEW: [Self; 3] = [Self::Response, Self::Gaps, Self::Locked];
+    /// The charts of the overview, in the order of the screen; of the margins it has what ends the
+    /// lock.
+    pub const OVERVIEW: [Self; 4] = [Self::Response, Self::Gaps, Self::Locked, Self::Margins];
 
     pub fn all() -> impl Iterator<Item = Self> {
         VIEWS.iter().map(|(id, _)| *id)

@@ -222,26 +222,26 @@ impl App {
         };
         let same_step = step(past.lesson.as_ref()) == step(self.lessons.progress.as_ref());
         let same_file = past.source.as_ref() == self.files.source.as_ref();
-        if past.opened == self.files.opened && same_file && same_step {
-            if past.film.scene != self.run.film.scene {
-                self.set_scene(past.scene.clone(), false);
+        let is_here = past.opened == self.files.opened && same_file && same_step;
+        if !is_here {
+            (self.files.opened, self.files.source) = (past.opened, past.source);
+            self.lessons.progress = past.lesson;
+            self.knobs.live = past.live;
+            self.play.tempo = past.tempo;
+            let view = self.view();
+            self.layout.views = past.views;
+            if self.view() != view {
+                self.keep_instant();
             }
-            self.show_film(past.film, past.scene);
-            return;
+            self.run.set_compare(past.compare);
         }
-        (self.files.opened, self.files.source) = (past.opened, past.source);
-        self.lessons.progress = past.lesson;
-        self.knobs.live = past.live;
-        self.play.tempo = past.tempo;
-        let view = self.view();
-        self.layout.views = past.views;
-        if self.view() != view {
-            self.keep_instant();
+        if !is_here || past.film.scene != self.run.film.scene {
+            self.set_scene(past.scene.clone(), false);
         }
-        self.run.set_compare(past.compare);
-        self.set_scene(past.scene.clone(), false);
-        self.play.playing = past.playing;
-        self.play.moves.push(Move::To(past.at_s));
+        if !is_here {
+            self.play.playing = past.playing;
+            self.play.moves.push(Move::To(past.at_s));
+        }
         self.show_film(past.film, past.scene);
     }
 }

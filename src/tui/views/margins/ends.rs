@@ -10,10 +10,8 @@ use crate::sheet::number::{count, rounded};
 use crate::sheet::table::{Heading, Table, TableCell};
 use crate::tui::app::App;
 use crate::tui::axis::number;
-use crate::tui::command::Command;
 use crate::tui::knobs::knob_of;
 use crate::tui::theme::Role;
-use crate::tui::views::ViewId;
 use crate::tui::views::panel::{Lines, ViewArea, lines_above, message, not_yet, paragraph, title};
 use rubscope_solver::motion::Verdict;
 use rubscope_solver::scene::keys::{OUT_OF_ROUND, SPEED};
@@ -31,10 +29,8 @@ const NEXT: &str = "4 wheel  5 map  g lessons";
 type Row = (f64, [String; 3]);
 
 /// Draws the panel.
-pub fn draw(app: &App, buffer: &mut Buffer, area: Rect) {
+pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
-    app.note(area, Command::View(ViewId::Margins));
-    let at = ViewArea { area, digit: ViewId::Margins.digit(), large: false };
     let known = app.margins();
     let old = known.as_ref().is_some_and(|(_, old)| *old);
     let locked = app.verdict() == Some(Verdict::Locked);
