@@ -102,14 +102,17 @@ pub struct RunReport {
     #[serde(skip)]
     pub end_machine: Machine,
     /// Longest hold of a corner that ended during the run, and the rotor speed when it ended
-    /// \[rad/s\]; `None` as in [`lock_that_broke`].
+    /// \[rad/s\]; `None` if no hold lasted for at least a casing period, or if the speed was changed
+    /// after that.
     #[serde(skip)]
     pub broken: Option<(Hold, f64)>,
     /// Rotor speed at which the present contact began during a speed ramp \[rad/s\], and whether
-    /// the rotor accelerates; `None` as in [`caught_at`].
+    /// the rotor accelerates; `None` without a ramp, for a contact since the start of the run, and if
+    /// speed or ramp were changed after the contact began.
     #[serde(skip)]
     pub caught: Option<(f64, bool)>,
-    /// What was seen where the verdict is judged; `None` as in [`Seen::at_end`].
+    /// What was seen where the verdict is judged; `None` if the verdict is proved, if it decays and
+    /// no contact can come, and if the run failed or diverged.
     #[serde(skip)]
     pub seen: Option<Seen>,
     /// Verdict of the event solver with unilateral contact; `None` if it was not determined.
