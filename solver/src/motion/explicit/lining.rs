@@ -12,9 +12,13 @@ use super::row::SERIES_PHASE;
 use super::row::SHORT_SERIES_PHASE;
 use super::row::{Tip, TipLaw, Tips, series, short_series};
 use super::shapes::Four;
-use crate::model::LiningLaw;
+use crate::harmonic::Lining as RoundLining;
+use crate::model::{Frame, LiningLaw};
 use crate::motion::lasting::mark;
 use crate::motion::{ActiveSet, Plane, across};
+
+/// Part of the fastest rate below which a wave about rest neither grows nor decays: round-off.
+const RATE_ROUND_OFF: f64 = 1e-11;
 
 /// State of the lining: its indentation and its pushes.
 #[derive(Clone, Debug)]
@@ -428,5 +432,28 @@ impl Explicit {
         lining.held_before = Some(part * lining.energy(|four| four.depth));
         // The record has the pushes of this step.
         lining.fours.iter_mut().for_each(|four| four.impulse = [0.0; 4]);
+    }
+
+    /// Returns the decay rate of the slowest wave that indents the lining, where all blades press it at
+    /// constant speed and none has lifted lately; negative for growth, 0 for neither \[1/s\].
+    pub(super) fn decay_about_rest(&self) -> Option<f64> {
+        let (machine, now) = (&self.machine, self.drive.time_of(self.n));
+        let presses = self.lining.is_some() && self.lasting.is_pressed(now);
+        let is_linear = self.drive.is_steady(self.n) && !machine.is_uneven() && self.disk.is_pair();
+        if !presses || !is_linear {
+            return None;
+        }
+        let speed = self.drive.speed(self.n);
+        let lining = RoundLining::of(machine, &self.scene.contact).ok()?;
+        let (frame, stiffness) = (Frame::at(machine, speed), lining.stiffness_at_rest());
+        // Rigid blades, and those with radial tips, do not indent the lining.
+        let waves = if self.tips.rise == 0.0 || self.disk.coordinates() == 0 {
+            frame.casing.on_spring(self.tips.push_on_casing(stiffness.into())).to_vec()
+        } else {
+            frame.round(stiffness)?
+        };
+        let fastest = waves.iter().map(|wave| wave.norm()).fold(0.0, f64::max);
+        let growth = waves.iter().map(|wave| wave.re).fold(f64::NEG_INFINITY, f64::max);
+        Some(if growth.abs() > RATE_ROUND_OFF * fastest { -growth } else { 0.0 })
     }
 }

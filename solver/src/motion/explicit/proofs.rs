@@ -1,17 +1,13 @@
 //! Verdicts that no later motion can change (docs/theory.md, section 9).
 
 use super::{Explicit, Lining};
-use crate::harmonic::Lining as RoundLining;
 use crate::harmonic::Locks;
 use crate::model::CERTAIN_PUSH;
-use crate::model::{Frame, LARGEST_BLADE_ANGLE};
+use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Verdict};
 
 /// Steps a corner must have been closed before it counts as held. Fewer: a crossing counts.
 const HELD_AFTER: u64 = 64;
-
-/// Part of the fastest rate below which a wave about rest neither grows nor decays: round-off.
-const RATE_ROUND_OFF: f64 = 1e-11;
 
 /// Mass ratio of the blades in a corner below which their inertia changes its contact forces by less
 /// than the room left to them.
@@ -43,29 +39,6 @@ impl Explicit {
         let rise = self.tips.rise.abs();
         let risen = if rise == 0.0 { 0.0 } else { rise * reach };
         risen < least && self.casing.reach(&self.u) + risen < least
-    }
-
-    /// Returns the decay rate of the slowest wave that indents the lining, where all blades press it at
-    /// constant speed and none has lifted lately; negative for growth, 0 for neither \[1/s\].
-    pub(super) fn decay_about_rest(&self) -> Option<f64> {
-        let (machine, now) = (&self.machine, self.drive.time_of(self.n));
-        let presses = self.lining.is_some() && self.lasting.is_pressed(now);
-        let is_linear = self.drive.is_steady(self.n) && !machine.is_uneven() && self.disk.is_pair();
-        if !presses || !is_linear {
-            return None;
-        }
-        let speed = self.drive.speed(self.n);
-        let lining = RoundLining::of(machine, &self.scene.contact).ok()?;
-        let (frame, stiffness) = (Frame::at(machine, speed), lining.stiffness_at_rest());
-        // Rigid blades, and those with radial tips, do not indent the lining.
-        let waves = if self.tips.rise == 0.0 || self.disk.coordinates() == 0 {
-            frame.casing.on_spring(self.tips.push_on_casing(stiffness.into())).to_vec()
-        } else {
-            frame.round(stiffness)?
-        };
-        let fastest = waves.iter().map(|wave| wave.norm()).fold(0.0, f64::max);
-        let growth = waves.iter().map(|wave| wave.re).fold(f64::NEG_INFINITY, f64::max);
-        Some(if growth.abs() > RATE_ROUND_OFF * fastest { -growth } else { 0.0 })
     }
 
     /// Returns the verdict if no later motion can change it.
