@@ -95,8 +95,8 @@ impl Config {
     }
 
     /// Returns the fields of the file; none for a setting that is not known.
-    fn fields(&self) -> Table {
-        Table::try_from(self).unwrap_or_default()
+    fn fields(&self) -> Result<Table, String> {
+        Table::try_from(self).map_err(|error| error.to_string())
     }
 }
 
@@ -176,7 +176,7 @@ impl Memory {
         app.mouse.on &= self.config.mouse.unwrap_or(true);
         app.dialogue.is_new = self.path.is_some() && !self.config.introduced;
         app.status.clone_from(&self.complaint);
-        self.began = Config::of(app).fields();
+        self.began = Config::of(app).fields().unwrap_or_default();
     }
 
     /// Writes the settings that changed during the session. Returns the message if that fails;
@@ -191,7 +191,7 @@ impl Memory {
                 ended.steps_done.join(config.steps_done);
                 let mut fields = before.clone();
                 let is_new = |(key, value): &(String, _)| self.began.get(key) != Some(value);
-                fields.extend(ended.fields().into_iter().filter(is_new));
+                fields.extend(ended.fields()?.into_iter().filter(is_new));
                 let written = if fields == before { Ok(()) } else { write(&fields, &path) };
                 written.map_err(|error| error.to_string())
             });
