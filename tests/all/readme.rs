@@ -17,9 +17,7 @@ fn open(theme: Theme) -> Session {
 /// The screen of the default scene some milliseconds after its start.
 fn picture(theme: Theme) -> String {
     let mut session = open(theme);
-    for _ in 0..3 {
-        session.press("");
-    }
+    (0..3).for_each(|_| _ = session.press(""));
     export::svg(&session.app)
 }
 
@@ -126,18 +124,26 @@ fn first_minute(theme: Theme) -> String {
     moving.picture()
 }
 
+/// A picture without the scene in it, and that scene: a kept one need not have a key that came
+/// later.
+fn apart(picture: &str) -> (String, Option<Scene>) {
+    let ends = picture.find("\n\nschema = ").zip(picture.find("</desc>"));
+    let Some((from, to)) = ends else { return (picture.into(), None) };
+    let scene = Scene::from_toml(&picture[from..to]).unwrap();
+    (picture[..from].to_string() + &picture[to..], Some(scene))
+}
+
 /// Compares a picture of the page with what makes it, or writes it.
 fn assert_is_made(file: &str, now: &str) {
     // A kept picture cannot name the commit that it is in.
     let now = now.replacen(concat!(" ", env!("RUBSCOPE_COMMIT"), "\n"), "\n", 1);
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file);
-    if std::env::var("RUBSCOPE_PICTURES").is_ok_and(|value| value == "write") {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    let is_made = || std::fs::read_to_string(&path).is_ok_and(|kept| apart(&kept) == apart(&now));
+    if !is_made() && std::env::var("RUBSCOPE_PICTURES").is_ok_and(|value| value == "write") {
         std::fs::write(&path, &now).unwrap();
     }
-    let kept = std::fs::read_to_string(&path).unwrap();
     assert!(
-        kept == now,
+        is_made(),
         "{file} is not what rubscope makes: RUBSCOPE_PICTURES=write cargo test readme makes it again"
     );
     assert!(now.len() < 400_000, "{file} has {} bytes", now.len());
@@ -180,8 +186,7 @@ fn header(session: &Session) -> String {
 fn the_first_minute_is_as_it_says() {
     let mut session = open(Theme::Mono);
     let start = header(&session);
-    assert!(start.contains("500 rad/s") && start.contains("LOCKED"), "{start}");
-    assert!(start.contains("Blades 12 and 19"), "{start}");
+    assert!(start.contains("500 rad/s") && start.contains("Blades 12 and 19"), "{start}");
     let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
     let first = session.text().lines().next().unwrap().trim().to_string();
     assert!(page.contains(&format!("\n{first}\n")), "the page does not say {first}");
@@ -195,7 +200,6 @@ fn the_first_minute_is_as_it_says() {
     assert!(header(&session).contains("ADHESIVE"), "{}", header(&session));
     session.press("5");
     session.press("");
-    assert_eq!(session.app.view().word(), "map");
     assert!(session.text().contains("5 map"), "{}", session.text());
     session.press("\u{1b}g");
     assert!(session.text().contains("Lessons"), "{}", session.text());
@@ -229,9 +233,7 @@ fn every_view_has_its_picture_on_the_page_of_the_explorer() {
         session.engine.map_cells = usize::MAX;
         session.press(&format!("{view}f"));
         // The second page of view 1 is nearly full.
-        for _ in 0..if view == "1" { 9 } else { 4 } {
-            session.press("");
-        }
+        (0..if view == "1" { 9 } else { 4 }).for_each(|_| _ = session.press(""));
         let file = format!("assets/pictures/view-{view}.svg");
         if view != "7" || !std::path::Path::new(&file).exists() {
             assert_is_made(&file, &export::svg(&session.app));

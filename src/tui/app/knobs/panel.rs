@@ -79,11 +79,11 @@ fn heading(app: &App, width: usize, group: Group) -> (String, Style) {
     (format!("{rule} {} {}", group.name(), rule.repeat(rest)), app.appearance.style(Role::Quiet))
 }
 
-/// Returns the row of a folded group: name, number of knobs, and the values changed since the scene
-/// was opened, or their number if they do not fit.
+/// Returns the row of a folded group: its name, and the values changed since the scene was opened, or
+/// their number if they do not fit.
 fn folded(app: &App, width: usize, group: Group) -> (String, Style) {
     let look = &app.appearance;
-    let head = look.spell(&format!(" {} {} ▸", group.name(), group.knobs().count()));
+    let head = look.spell(&format!(" {} ▸", group.name()));
     let changed = group.knobs().map(|(_, knob)| knob).filter(|knob| is_changed(app, knob));
     let value = |knob: &Knob| look.spell(&format!(" {}* {}", knob.symbol(), knob.text(&app.scene)));
     let changed: Vec<String> = changed.map(value).collect();
