@@ -80,10 +80,7 @@ impl Engine for Stepwise {
         }
         self.fresh = false;
         let mut snapshot = playback.snapshot();
-        let pace = &mut snapshot.results.pace;
-        let step_s = pace.step_s.map(|_| 42e-9);
-        let reached = Some(order.rate);
-        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, reached, ..*pace };
+        snapshot.results.pace = Pace { limit: Limit::None, reached: Some(order.rate) };
         Some(snapshot)
     }
 }
