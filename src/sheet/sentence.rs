@@ -6,9 +6,10 @@ use std::fmt;
 use super::line::{blades, capital};
 use super::number::{grouped, micro, rounded, short, time, with_unit};
 use rubscope_solver::harmonic::{lock_growth, roundness_needed};
-use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{Certainty, Failure, FailureReason, RunReport, Seen, Verdict};
-use rubscope_solver::scene::{ContactLaw, Scene};
+use rubscope_solver::motion::{
+    Certainty, Contact, Failure, FailureReason, RunReport, Seen, Verdict,
+};
+use rubscope_solver::scene::ContactLaw;
 
 /// Separators: after the verdict, and between the two sentences.
 const APART: [&str; 2] = ["  ", " "];
@@ -111,54 +112,28 @@ impl Sentence {
 }
 
 impl Facts {
-    /// Creates the facts known from the scene, the machine and the groups in contact (blades and
-    /// contact force) at the end; all others are empty.
-    pub fn at(
-        verdict: Verdict,
-        (scene, machine, speed): (&Scene, &Machine, f64),
-        contacts: impl Iterator<Item = (Vec<u32>, f64)>,
-    ) -> Self {
-        let (pull, push): (Vec<_>, Vec<_>) = contacts.partition(|(_, force)| *force > 0.0);
-        let blades = |groups: Vec<(Vec<u32>, f64)>| groups.into_iter().flat_map(|group| group.0);
-        let pulling: Vec<u32> = blades(pull).collect();
-        let locked = verdict == Verdict::Locked;
-        let steady = scene.operation.speed_ramp_rad_s2 == 0.0;
-        let may_grow = locked && steady;
+    /// Collects the facts of a run.
+    pub fn of(report: &RunReport) -> Self {
+        let (outcome, scene, checks) = (&report.outcome, &report.scene, &report.checks);
+        let (machine, speed) = (&report.end_machine, report.end_speed_rad_s);
+        let (pull, push): (Vec<_>, Vec<_>) =
+            outcome.contacts.iter().partition(|group| group.multiplier_n > 0.0);
+        let blades =
+            |groups: &[&Contact]| groups.iter().flat_map(|group| group.blades.clone()).collect();
+        let locked = outcome.verdict == Verdict::Locked;
+        let may_grow = locked && scene.operation.speed_ramp_rad_s2 == 0.0;
         Self {
-            verdict,
-            blades: pulling.iter().copied().chain(blades(push)).collect(),
-            pulling,
-            touches: 0,
+            verdict: outcome.verdict,
+            blades: blades(&[&pull[..], &push].concat()),
+            pulling: blades(&pull),
+            touches: report.impact_count,
             law: scene.solver.contact,
             clearance_m: scene.clearance(),
             damped: machine.casing_damping_ratio > 0.0,
-            broken: None,
-            caught: None,
-            failure: None,
-            pulled: false,
-            other: None,
-            seen: None,
-            still: false,
-            certainty: Certainty::default(),
-            in_one_step: false,
-            growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
-            round: locked.then(|| roundness_needed(machine, speed)).flatten(),
-            tips: locked.then(|| machine.tip_deviation(speed)).flatten().filter(|tips| *tips > 0.0),
-        }
-    }
-
-    /// Collects the facts of a run.
-    pub fn of(report: &RunReport) -> Self {
-        let outcome = &report.outcome;
-        let end = (&*report.scene, &report.end_machine, report.end_speed_rad_s);
-        let contacts = outcome.contacts.iter();
-        let contacts = contacts.map(|group| (group.blades.clone(), group.multiplier_n));
-        Self {
-            touches: report.impact_count,
             broken: report.broken.map(|(_, speed)| speed),
             caught: report.caught,
             failure: report.failure.clone(),
-            pulled: report.checks.tensile_steps > 0,
+            pulled: checks.tensile_steps > 0,
             other: report.pushes_only,
             seen: report.seen,
             still: outcome.amplitude_m == 0.0,
@@ -168,7 +143,9 @@ impl Facts {
                 depends_on_step: outcome.depends_on_step,
             },
             in_one_step: report.impacts_in_one_step_at_s.is_some(),
-            ..Self::at(outcome.verdict, end, contacts)
+            growth: may_grow.then(|| lock_growth(machine, speed)).flatten(),
+            round: locked.then(|| roundness_needed(machine, speed)).flatten(),
+            tips: locked.then(|| machine.tip_deviation(speed)).flatten().filter(|tips| *tips > 0.0),
         }
     }
 

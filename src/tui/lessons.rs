@@ -88,18 +88,12 @@ pub struct LessonStep {
 pub enum Condition {
     /// The run has this verdict.
     Verdict(String),
-    /// This view is the large chart.
-    View(String),
-    /// The run is compared with the other contact law, or not.
-    Compare(bool),
     /// A key of the scene has a value above this number, in its SI unit.
     Above(String, f64),
     /// A key of the scene has a value below this number, in its SI unit.
     Below(String, f64),
     /// A limit of the scene is above this number, in its SI unit.
     Limit(LimitName, f64),
-    /// A key of the scene has this word as its value.
-    Is(String, String),
 }
 
 impl LessonStep {

@@ -32,7 +32,6 @@ mod knobs;
 pub mod lessons;
 mod line;
 mod lines;
-mod list;
 mod options;
 mod panels;
 mod plot;

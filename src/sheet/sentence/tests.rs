@@ -1,16 +1,16 @@
 //! Sentences of every verdict, history and width.
 
 use super::*;
+use rubscope_solver::motion::simulate;
 use rubscope_solver::scene::Scene;
 
 const WIDTHS: std::ops::RangeInclusive<usize> = 40..=200;
 
 fn facts(verdict: Verdict) -> Facts {
-    let scene = Scene::base().checked().unwrap();
-    let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
-    let all = Facts::at(verdict, (&scene, &machine, speed), std::iter::empty());
-    let law = ContactLaw::Unilateral;
-    Facts { blades: vec![19, 12], touches: 5, law, round: None, tips: None, ..all }
+    let scene = Scene::base().with(&[("solver.end_s", "1e-6")]).unwrap();
+    let all = Facts::of(&simulate(&scene));
+    let (blades, law) = (vec![19, 12], ContactLaw::Unilateral);
+    Facts { verdict, blades, touches: 5, law, seen: None, still: false, ..all }
 }
 
 const SEEN: Seen = Seen { span_s: 0.01, without_contact_s: 0.012_345, reach: Some(0.943) };

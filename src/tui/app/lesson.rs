@@ -14,7 +14,7 @@ use crate::tui::lessons::{self, Condition, LETTERS, Lesson, LessonStep};
 use crate::tui::text::{columns, print, shorten, wrap};
 use crate::tui::theme::Role;
 use crate::tui::views::id::ViewId;
-use rubscope_solver::scene::{SceneError, Value};
+use rubscope_solver::scene::SceneError;
 
 impl LessonProgress {
     /// Returns the progress in the current step.
@@ -71,18 +71,12 @@ impl App {
                 let now = self.full_run().map(|run| run.facts.verdict);
                 now.is_some() && now == word.parse().ok()
             }
-            Condition::View(word) => ViewId::from_word(word) == Some(self.view()),
-            Condition::Compare(wanted) => self.run.compare == *wanted,
             Condition::Above(path, limit) => number(path).is_some_and(|x| x > *limit),
             Condition::Below(path, limit) => number(path).is_some_and(|x| x < *limit),
             Condition::Limit(name, least) => self.margins().is_some_and(|(live, old)| {
                 let value = live.margins.limit(*name).and_then(|limit| limit.value);
                 !old && value.is_some_and(|value| value > *least)
             }),
-            Condition::Is(path, word) => {
-                let word = Value::Text(word.clone());
-                knob_of(path).is_some_and(|knob| knob.get(&self.scene) == word)
-            }
         }
     }
 

@@ -1,14 +1,15 @@
 //! The list of commands: what is typed, the commands that match it, and a note on the selected one.
 //! It is also the list of scenes and that of lessons.
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::text::Line;
+use ratatui::widgets::{HighlightSpacing, List, ListState, StatefulWidget};
+use ratatui::{buffer::Buffer, layout::Rect, style::Modifier};
 
 use super::model::{App, InputMode};
 use super::words::{self, Found};
 use crate::tui::command::Effect;
 use crate::tui::field::Field;
 use crate::tui::files::FoundScenes;
-use crate::tui::list::draw_list;
 use crate::tui::text::{columns, first_lines, print, shorten, wrap};
 use crate::tui::theme::Role;
 
@@ -92,10 +93,15 @@ pub fn draw(app: &App, buffer: &mut Buffer, area: Rect, word: &str, typed: &Fiel
         let room = width.saturating_sub(columns(&beside) + 2);
         let what = shorten(&look.spell(&format!("{kind}{}", item.what)), room, mark);
         let pad = width.saturating_sub(columns(&what) + columns(&beside) + 1);
-        (format!("{what}{}{beside}", " ".repeat(pad)), Role::Text)
+        Line::styled(format!("{what}{}{beside}", " ".repeat(pad)), look.style(Role::Text))
     };
-    let first = draw_list(look, buffer, list, found.iter().map(line), place);
-    for (y, item) in (list.y..list.bottom()).zip(found.iter().skip(first)) {
+    let lines = List::new(found.iter().map(line))
+        .highlight_symbol(look.either("▸", ">"))
+        .highlight_spacing(HighlightSpacing::Always)
+        .highlight_style(look.style(Role::Focus).add_modifier(Modifier::REVERSED));
+    let mut state = ListState::default().with_selected(Some(place));
+    StatefulWidget::render(lines, list, buffer, &mut state);
+    for (y, item) in (list.y..list.bottom()).zip(found.iter().skip(state.offset())) {
         app.note(Rect { y, height: 1, ..list }, item.command.clone());
     }
     let note = Rect { y: list.bottom(), height: rows, ..below };

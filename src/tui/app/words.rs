@@ -9,7 +9,7 @@ use crate::tui::axis::readable;
 use crate::tui::command::chord::Chord;
 use crate::tui::command::table::{self, Binding, Group};
 use crate::tui::command::{Command, Purpose};
-use crate::tui::knobs::{Fit, KNOBS, Knob, best, called, fit, knob_of, plain};
+use crate::tui::knobs::{Fit, KNOBS, Knob, called, fit, knob_of, plain};
 use crate::tui::lessons::{self, LETTERS};
 use crate::tui::theme::Theme;
 use crate::tui::views::map::plan::numeric;
@@ -234,7 +234,11 @@ fn ranked(all: impl Iterator<Item = Found>, typed: &str) -> Vec<Found> {
 /// of the map. `None` unless they name two different knobs.
 fn both_axes(words: &str) -> Option<Found> {
     let words: Vec<&str> = words.split_whitespace().filter(|word| *word != "over").collect();
-    let knob = |words: &[&str]| best(numeric(), words).map(|(_, knob)| knob);
+    let fits = |words: &[&str], knob| Some((fit(knob, words)?, knob));
+    let knob = |words: &[&str]| {
+        let best = numeric().filter_map(|knob| fits(words, knob)).min_by_key(|(fit, _)| *fit);
+        best.map(|(_, knob)| knob)
+    };
     let splits = (1..words.len()).filter_map(|at| words.split_at_checked(at));
     let (x, y) =
         splits.filter_map(|(x, y)| knob(x).zip(knob(y))).find(|(x, y)| x.path != y.path)?;

@@ -10,6 +10,6 @@ mod range;
 mod table;
 
 pub use knob::{Group, Knob};
-pub use naming::{Fit, best, called, fit, plain};
+pub use naming::{Fit, called, fit, plain};
 pub use range::KnobRange;
 pub use table::{KNOBS, knob_of, place_of};

@@ -55,15 +55,6 @@ pub fn fit(knob: &Knob, words: &[&str]) -> Option<Fit> {
     words.iter().all(begins).then_some(Fit::Begins)
 }
 
-/// Returns the knob that the typed words name best, and how well; `None` if they name none.
-pub fn best(
-    mut knobs: impl Iterator<Item = &'static Knob>,
-    words: &[&str],
-) -> Option<(Fit, &'static Knob)> {
-    let fitting = knobs.by_ref().filter_map(|knob| Some((fit(knob, words)?, knob)));
-    fitting.min_by_key(|(fit, _)| *fit)
-}
-
 /// Returns the index in [`KNOBS`] of the knob that a whole line names by its label, the first word
 /// of its label, or its symbol; `None` for any other text.
 pub fn called(typed: &str) -> Option<usize> {

@@ -162,14 +162,11 @@ pub fn title(
     at.below(0)
 }
 
-/// Returns the progress of the view's study; `None` if it is not running for long, and for the map,
-/// which shows its progress itself.
+/// Returns for how long the view's study has been running; `None` if it is not running for long, and
+/// for the map, which shows its progress itself.
 fn working(app: &App, at: ViewArea) -> Option<(String, Style)> {
     let known = app.results().working.iter().find(|working| working.view.digit() == at.digit)?;
-    let text = match known.part {
-        Some(part) => format!("computing {:.0} %", 100.0 * part),
-        None => format!("computing {} s", known.seconds),
-    };
+    let text = format!("computing {} s", known.seconds);
     (known.view != ViewId::Map).then(|| (text, app.appearance.style(Role::Focus)))
 }
 

@@ -215,7 +215,7 @@ fn all(app: &App, width: usize, open: &[Group], telling: bool, from: usize) -> V
     rows
 }
 
-/// Draws the bar of the selected knob into `cells`; its end marks are outside. Knobs without a
+/// Draws the bar of the selected knob into `cells` of one row; its end marks are outside. Knobs without a
 /// numeric range have no bar.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let Some(range) = app.range(knob) else { return };
@@ -232,29 +232,23 @@ pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let quiet = look.style(Role::Quiet);
     let [left, right] = look.either(["▕", "▏"], ["[", "]"]);
     let [full, now, empty, tick] = look.either(["▒", "█", "▁", "┃"], ["=", "#", ".", "|"]);
-    let last = cells.bottom().saturating_sub(1);
-    for y in cells.y..cells.bottom() {
-        let mut put = |x: u16, sign: &str, style| {
-            if let Some(cell) = buffer.cell_mut(Position::new(x, y)) {
-                cell.reset();
-                cell.set_symbol(sign).set_style(style);
-            }
-        };
-        put(cells.x.saturating_sub(1), left, quiet);
-        put(cells.right(), right, quiet);
-        for x in cells.x..cells.right() {
-            match here {
-                Some(here) if x < here => put(x, full, quiet),
-                Some(here) if x == here => put(x, now, look.style(Role::Focus)),
-                // A bar of several rows is drawn from its lowest row.
-                _ => put(x, if y == last { empty } else { " " }, quiet),
-            }
+    let mut put = |x: u16, sign: &str, style| {
+        if let Some(cell) = buffer.cell_mut(Position::new(x, cells.y)) {
+            cell.reset();
+            cell.set_symbol(sign).set_style(style);
         }
-        let marks = range.marks.iter().map(|(_, part)| cell(cells, *part));
-        for x in marks.filter(|x| y == last && here != Some(*x)) {
-            put(x, tick, look.style(Role::Text));
+    };
+    put(cells.x.saturating_sub(1), left, quiet);
+    put(cells.right(), right, quiet);
+    for x in cells.x..cells.right() {
+        match here {
+            Some(here) if x < here => put(x, full, quiet),
+            Some(here) if x == here => put(x, now, look.style(Role::Focus)),
+            _ => put(x, empty, quiet),
         }
     }
+    let marks = range.marks.iter().map(|(_, part)| cell(cells, *part));
+    marks.filter(|x| here != Some(*x)).for_each(|x| put(x, tick, look.style(Role::Text)));
 }
 
 /// Returns the column at a fraction of the bar, 0 to 1.

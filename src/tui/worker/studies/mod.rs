@@ -244,11 +244,6 @@ impl Study for PrecisionStudy {
             }
         })
     }
-
-    fn part(found: &Precision) -> Option<f64> {
-        let all = ways(&found.scene, Effort::QUICK).len().max(1);
-        Some(found.rows.len() as f64 / all as f64)
-    }
 }
 
 #[cfg(test)]

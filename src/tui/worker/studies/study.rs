@@ -50,11 +50,6 @@ pub trait Study {
     fn replaces(_: &Self::Found) -> bool {
         true
     }
-
-    /// Returns the finished fraction, 0 to 1; `None` if the study cannot tell.
-    fn part(_: &Self::Found) -> Option<f64> {
-        None
-    }
 }
 
 /// A study, with the result for its previous inputs.
@@ -147,8 +142,6 @@ impl<S: Study> Work for StudySlot<S> {
 
     fn working(&self, given: &Given) -> Option<Working> {
         let wall = self.since.filter(|_| !self.is_done(given))?.elapsed();
-        let found = self.study.as_ref().and_then(|(_, job)| job.found.as_ref());
-        let part = found.and_then(|found| S::part(found));
-        (wall > LONG).then_some(Working { view: S::VIEW, part, seconds: wall.as_secs() })
+        (wall > LONG).then_some(Working { view: S::VIEW, seconds: wall.as_secs() })
     }
 }
