@@ -89,18 +89,19 @@ pub enum Move {
 const MOST_MOVES: usize = 1000;
 
 /// The moves that were requested and not yet made. They are numbered, so that none is lost or made
-/// twice when an order replaces an older one.
+/// twice when an order replaces an older one. Equal numbers of the last one mean that the same moves
+/// were requested, wherever each was made.
 #[derive(Clone, Debug, Default)]
 pub struct Moves {
-    /// Number of the last move that was made, or replaced.
-    made: u64,
-    waiting: Vec<Move>,
+    /// Number of the last move that was requested.
+    pub last: u64,
+    /// The moves that wait, with their numbers.
+    waiting: Vec<(u64, Move)>,
 }
 
 impl PartialEq for Moves {
-    /// Returns whether the same moves were requested, wherever each was made.
     fn eq(&self, other: &Self) -> bool {
-        self.last() == other.last()
+        self.last == other.last
     }
 }
 
@@ -108,20 +109,18 @@ impl Moves {
     /// Requests a move; returns its number.
     pub fn push(&mut self, to: Move) -> u64 {
         if matches!(to, Move::To(_)) {
-            self.made = self.last();
             self.waiting.clear();
         }
         if self.waiting.len() < MOST_MOVES {
-            self.waiting.push(to);
+            self.last += 1;
+            self.waiting.push((self.last, to));
         }
-        self.last()
+        self.last
     }
 
     /// Drops the moves up to a number.
     pub fn drop_made(&mut self, made: u64) {
-        let count = usize::try_from(made.saturating_sub(self.made)).unwrap_or(usize::MAX);
-        self.waiting.drain(..count.min(self.waiting.len()));
-        self.made = self.made.max(made);
+        self.waiting.retain(|(number, _)| *number > made);
     }
 
     /// Returns whether all moves were made.
@@ -132,20 +131,14 @@ impl Moves {
     /// Returns the time to which the motion goes next, if that is known \[s\].
     pub fn target(&self) -> Option<f64> {
         match self.waiting.last() {
-            Some(Move::To(t)) => Some(*t),
+            Some((_, Move::To(t))) => Some(*t),
             _ => None,
         }
     }
 
-    /// Returns the number of the last move requested.
-    pub fn last(&self) -> u64 {
-        self.made + self.waiting.len() as u64
-    }
-
     /// Returns the first move after the one with the number `made`, and its number.
     pub fn after(&self, made: u64) -> Option<(u64, Move)> {
-        let mut numbered = (self.made + 1..).zip(self.waiting.iter().copied());
-        numbered.find(|(number, _)| *number > made)
+        self.waiting.iter().copied().find(|(number, _)| *number > made)
     }
 }
 

@@ -105,22 +105,6 @@ impl App {
         }
     }
 
-    /// Describes the contact at the time shown, e.g. `blades 6 + 21`.
-    pub fn contact_shown(&self) -> String {
-        let Some(moment) = self.shown() else { return String::new() };
-        if let Some(failure) = &moment.failure {
-            return failure.clone();
-        }
-        if self.has_lining() {
-            return self.in_the_lining(&moment.gaps);
-        }
-        match moment.active_set {
-            ActiveSet::Nothing => "no contact".into(),
-            ActiveSet::Many => "many blades".into(),
-            touching => self.blades_of(touching.sides()),
-        }
-    }
-
     /// Returns the contact state at the time shown: `free`, `touching 12`, `held on 6 + 21`.
     pub fn state_now(&self) -> String {
         let Some(moment) = self.shown() else { return "starting".into() };
@@ -249,20 +233,6 @@ impl App {
             true => format!("{} into the lining", readable(-gap, "m")),
             false if gap.abs() <= CLOSED * self.machine.polygon.clearance => "touches".into(),
             false => readable(gap, "m"),
-        }
-    }
-
-    /// Describes which blades are in the lining, and the deepest one.
-    fn in_the_lining(&self, gaps: &[f64]) -> String {
-        let touching = (1..).zip(gaps).filter(|(_, gap)| **gap < 0.0);
-        let count = touching.clone().count();
-        match touching.min_by(|a, b| a.1.total_cmp(b.1)) {
-            None => "no contact".into(),
-            Some((blade, gap)) if count == 1 => format!("blade {blade}, {}", self.gap_words(*gap)),
-            Some((blade, gap)) => {
-                let all = if count == gaps.len() { "all".into() } else { count.to_string() };
-                format!("{all} blades, deepest {blade}: {}", readable(-gap, "m"))
-            }
         }
     }
 

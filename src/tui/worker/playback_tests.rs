@@ -156,5 +156,5 @@ fn steps_and_jumps_are_made_once_each_in_the_order_of_their_keys() {
     settle(&mut playback);
     let steps = (playback.head.at.motion.t_s() - 5e-4) / 1e-6;
     assert!((steps - 1.0).abs() < 1e-6, "{steps}");
-    assert_eq!(playback.snapshot().moved, order.moves.last());
+    assert_eq!(playback.snapshot().moved, order.moves.last);
 }

@@ -19,7 +19,6 @@ use crate::tui::views::chart::{Chart, Curve};
 use crate::tui::views::panel::{ViewArea, ViewPanel};
 use crate::tui::views::response::ResponseView;
 use rubscope_solver::model::SideLeft;
-use rubscope_solver::motion::ActiveSet;
 
 /// Width from which the polygon is drawn beside the wheel, if the view is alone on the screen.
 const BOTH_FROM: u16 = 76;
@@ -87,16 +86,6 @@ fn named(app: &App) -> &'static str {
     }
 }
 
-/// Returns a test whether a side is in contact at the time shown. With a lining, the gaps decide.
-fn touching_sides(app: &App) -> impl Fn(u32) -> bool {
-    let polygon = &app.machine.polygon;
-    let active_set = app.shown().map_or(ActiveSet::Nothing, |moment| moment.active_set);
-    let deep: Option<Vec<u32>> = app
-        .has_lining()
-        .then(|| app.touching_blades().iter().map(|blade| polygon.side_of_blade(*blade)).collect());
-    move |side| deep.as_ref().map_or(active_set.includes(side), |deep| deep.contains(&side))
-}
-
 fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let look = &app.appearance;
     let polygon = &app.machine.polygon;
@@ -106,7 +95,7 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     chart.legend = vec![
         (format!("{}, {}m", named(app), x.scale.prefix), look.style(Role::Quiet)),
         (format!("{point} now"), look.style(Role::Focus)),
-        (app.contact_shown(), look.style(Role::Contact)),
+        (app.state_now(), look.style(Role::Contact)),
     ];
     let turned = app.shown().map_or(0.0, |moment| moment.angle);
     let sides = 0..polygon.sides;
@@ -125,7 +114,8 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
     chart.reading = reading(app, x, y, &apothems);
     let outline = Pen { dashed: false, ..look.quiet() };
     let touched = Pen { style: look.style(Role::Contact), sign: '#', dashed: false };
-    let touching = touching_sides(app);
+    let touching: Vec<u32> =
+        app.touching_blades().into_iter().map(|blade| polygon.side_of_blade(blade)).collect();
     // An unbounded side is drawn up to the edge of the chart.
     let most = 20.0 * polygon.clearance.abs();
     let side = |SideLeft { side, reach, .. }: &SideLeft| {
@@ -133,12 +123,15 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
         let apothem = apothems.get(*side as usize).copied().unwrap_or(polygon.clearance);
         let end = |along: f64| (-apothem * cos - along * sin, -apothem * sin + along * cos);
         let ends = reach.map(|along| end(along.clamp(-most, most)));
-        (if touching(*side) { touched } else { outline }, Curve::Line(Box::new(ends.into_iter())))
+        (
+            if touching.contains(side) { touched } else { outline },
+            Curve::Line(Box::new(ends.into_iter())),
+        )
     };
     let past = app.record().iter().take_while(|bin| bin.from < app.now());
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     chart.curves.push((look.first(), Curve::Line(Box::new(trail))));
-    left.sort_by_key(|left| !touching(left.side));
+    left.sort_by_key(|left| !touching.contains(&left.side));
     chart.curves.extend(left.iter().map(side));
     let cursor = app.cursor_in(ViewId::Frame).map(|at| (x.at(at.across), y.at(at.up), '+'));
     let now = app.shown().map(|moment| {
@@ -184,7 +177,7 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let mark = look.either('▲', '^');
     let mut chart = Chart { bare: true, ..Chart::new("wheel", x, y) };
     chart.legend = vec![
-        (format!("{mark} {}", app.contact_shown()), contact),
+        (format!("{mark} {}", app.state_now()), contact),
         (format!("gaps x {exaggeration:.0}"), quiet),
     ];
     let cursor = app.cursor_in(ViewId::Frame).filter(|_| at.large);

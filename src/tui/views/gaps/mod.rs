@@ -29,12 +29,11 @@ impl ViewPanel for GapsView {
         let x = ChartAxis::plain(0.5, f64::from(count) + 0.5);
         let active_set = app.touching_blades();
         let mark = look.either('▲', '^');
-        let shown = app.contact_shown();
         let style = if active_set.is_empty() { quiet } else { contact };
         let mut chart = Chart::new("gaps", x, y.evened(at.below(0), look));
         chart.legend = vec![
             (format!("{}m by blade", y.scale.prefix), quiet),
-            (format!("{mark} {shown}"), style),
+            (format!("{mark} {}", app.state_now()), style),
         ];
         chart.reading = reading(app);
         // With a lining the level of the clearance can be below zero, so it needs a label.
