@@ -28,12 +28,10 @@ impl Layout {
 
     /// Moves the views that the scene names to the front, and takes the speeds of its machine.
     pub fn open(&mut self, scene: &Scene) {
-        let named = scene.view.charts.iter().filter_map(|word| ViewId::from_word(word));
-        let mut views: Vec<ViewId> = named.collect();
-        views.extend(
-            self.views.iter().copied().filter(|view| !views.contains(view)).collect::<Vec<_>>(),
-        );
-        (self.views, self.chosen) = (views, false);
+        let charts = &scene.view.charts;
+        let named = |view: &ViewId| charts.iter().position(|word| word == view.word());
+        self.views.sort_by_key(|view| named(view).unwrap_or(charts.len()));
+        self.chosen = false;
         self.range = speed_range(keys::VIEW_SPEEDS, &scene.view.speeds).ok().or(self.range);
     }
 
@@ -74,9 +72,8 @@ impl Layout {
 
     /// Returns the view `by` places after the large one in the table, cyclically.
     pub fn neighbour(&self, by: i64) -> ViewId {
-        let views: Vec<ViewId> = ViewId::all().collect();
-        let place = (self.view() as i64 + by).rem_euclid(views.len() as i64);
-        views.get(place as usize).copied().unwrap_or(self.view())
+        let place = (self.view() as i64 + by).rem_euclid(self.views.len() as i64);
+        ViewId::all().nth(place as usize).unwrap_or(self.view())
     }
 }
 

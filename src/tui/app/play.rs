@@ -2,6 +2,7 @@
 //! then a new one starts.
 
 use super::model::{App, Play, Tempo};
+use crate::sheet::number::rounded;
 use crate::tui::command::Command;
 use crate::tui::engine::{Move, PageRecord};
 use crate::tui::history::{Bin, between, fine_between};
@@ -228,11 +229,7 @@ impl App {
         match rate {
             rate if rate >= REAL => "real time".into(),
             // Two digits are enough, because the pace fluctuates.
-            rate => {
-                let times = 1.0 / rate;
-                let unit = 10f64.powf(times.log10().floor() - 1.0).max(1.0);
-                format!("{:.0}x slower", (times / unit).round() * unit)
-            }
+            rate => format!("{:.0}x slower", rounded(1.0 / rate, 2)),
         }
     }
 }

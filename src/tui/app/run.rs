@@ -5,7 +5,7 @@ use super::model::{App, Baseline, Ranges, Run};
 use super::play::begin_s;
 use crate::sheet::line::clean;
 use crate::tui::axis::{AutoRange, instant, readable};
-use crate::tui::engine::{Moment, Move, Order, PageRecord, Results, Sensitive, Snapshot};
+use crate::tui::engine::{Moment, Move, Order, PageRecord, Results, Snapshot};
 use crate::tui::film::{FilmPlan, other_law};
 use crate::tui::history::{Bin, Channel, wider};
 use crate::tui::knobs::{KNOBS, Knob, knob_of};
@@ -74,11 +74,9 @@ impl Run {
     /// Shows another film; what was computed of the one before is dropped.
     pub fn show(&mut self, film: FilmPlan) {
         (self.film, self.number) = (film, self.number + 1);
-        let results = &mut self.latest.results;
-        (results.full_run, results.verdict) = (None, None);
-        (results.reference, results.comparison) = (None, None);
-        (results.page, results.comparison_page) = (None, None);
-        results.sensitive = Sensitive::Unknown;
+        let Results { found, working, pinned_page, pace, .. } =
+            std::mem::take(&mut self.latest.results);
+        self.latest.results = Results { found, working, pinned_page, pace, ..Results::default() };
     }
 
     /// Continues the run past its end. What is known stays until the rest is computed.
@@ -363,7 +361,7 @@ fn grow(range: &mut AutoRange, data: Option<(f64, f64)>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::engine::FullRunState;
+    use crate::tui::engine::{FullRunState, Sensitive};
     use crate::tui::views::spectrum::lines::Spectrum;
     use rubscope_solver::scene::Scene;
 

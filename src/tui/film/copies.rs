@@ -34,11 +34,7 @@ impl Copies {
         self.kept.push(at.clone());
         if self.kept.len() > MOST {
             self.spacing *= 2.0;
-            let mut odd = false;
-            self.kept.retain(|_| {
-                odd = !odd;
-                odd
-            });
+            self.kept = std::mem::take(&mut self.kept).into_iter().step_by(2).collect();
         }
     }
 

@@ -159,14 +159,10 @@ impl MapAxis {
 /// Returns both ends of the speed axis \[rad/s\]: from standstill to above every threshold, or
 /// above the current speed if that is outside. The speeds are negative if the rotor turns backward.
 fn speeds(scene: &Scene) -> (f64, f64) {
-    let mut scene = scene.clone();
-    let speed = scene.operation.speed_rad_s;
-    let machine = scene.machine();
+    let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
     let thresholds = [machine.lock_speed(), machine.dangerous_speed(), machine.critical_speed()];
-    scene.operation.speed_rad_s = 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max);
-    let usual = speed_range(&scene);
-    scene.operation.speed_rad_s = speed;
-    let fastest = if speed.abs() > usual { speed_range(&scene) } else { usual };
+    let usual = speed_range(scene, 1.3 * thresholds.into_iter().flatten().fold(1.0, f64::max));
+    let fastest = if speed.abs() > usual { speed_range(scene, speed) } else { usual };
     if speed < 0.0 { (-fastest, 0.0) } else { (0.0, fastest) }
 }
 
@@ -230,21 +226,14 @@ fn centre(cell: u32, block: u32, count: u32) -> u32 {
 /// Returns all cells in order of computation: those of the coarsest blocks first.
 pub fn coarse_first(plan: &MapPlan) -> Vec<usize> {
     let (x, y) = (plan.x.count, plan.y.count);
-    let mut taken = vec![false; plan.len()];
-    let mut order = Vec::with_capacity(plan.len());
-    for block in BLOCKS {
-        let side = block as usize;
-        for row in (0..y).step_by(side) {
-            for column in (0..x).step_by(side) {
-                let index = plan.index(centre(column, block, x), centre(row, block, y));
-                if let Some(taken) = taken.get_mut(index).filter(|taken| !**taken) {
-                    *taken = true;
-                    order.push(index);
-                }
-            }
-        }
-    }
-    order
+    let block_of = |index: &usize| {
+        let (column, row) = (*index as u32 % x, *index as u32 / x);
+        let stands = |block| centre(column, block, x) == column && centre(row, block, y) == row;
+        BLOCKS.into_iter().position(stands)
+    };
+    let mut cells: Vec<usize> = (0..plan.len()).collect();
+    cells.sort_by_key(block_of);
+    cells
 }
 
 /// The run of one map cell.

@@ -8,8 +8,8 @@ use crate::sheet::ticks::linspace;
 use crate::tui::axis::nice_step;
 use crate::tui::views::id::ViewId;
 use rubscope_solver::harmonic::{CoincidencePoint, coincidence, shifted_coincidence};
-use rubscope_solver::model::{Initial, Machine};
-use rubscope_solver::scene::{ModelSize, Scene, SolverChoice, View};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::{ModelSize, Scene};
 
 /// Number of equally spaced speeds over the whole range.
 const POINTS: usize = 121;
@@ -34,7 +34,7 @@ impl CoincidenceCurves {
     pub fn of(scene: &Scene) -> Option<Self> {
         let machine = scene.machine();
         let markers = markers(scene, &machine);
-        let (from, to) = range(scene, &markers)?;
+        let (from, to) = range(scene.operation.speed_rad_s, &markers)?;
         let mut speeds = linspace(from, to, POINTS);
         for (speed, _) in &markers {
             speeds.extend(linspace((1.0 - NEAR) * speed, (1.0 + NEAR) * speed, POINTS_NEAR));
@@ -51,22 +51,13 @@ impl CoincidenceCurves {
         Some(Self { speeds, points })
     }
 
-    /// Returns the scene without everything that does not affect the curves. Equal keys mean that
-    /// computed curves are still valid.
-    pub fn key(scene: &Scene) -> Scene {
-        let mut key = scene.clone();
-        let machine = scene.machine();
-        let speed = std::mem::take(&mut key.operation.speed_rad_s);
-        let usual = range(&key, &markers(scene, &machine));
+    /// Returns what the curves of a scene follow from: equal keys have equal curves. A speed inside
+    /// the usual range counts by its sign.
+    pub fn key(scene: &Scene) -> (Machine, ModelSize, f64) {
+        let (machine, speed) = (scene.machine(), scene.operation.speed_rad_s);
+        let usual = range(0.0, &markers(scene, &machine));
         let is_usual = usual.is_some_and(|(from, to)| (from..=to).contains(&speed.abs()));
-        key.operation.speed_rad_s = if is_usual { speed.signum() } else { speed };
-        (key.operation.pulse_n, key.operation.pulse_s) = (0.0, 0.0);
-        key.operation.speed_ramp_rad_s2 = 0.0;
-        key.initial = Initial::default();
-        let SolverChoice { contact, model, .. } = key.solver;
-        key.solver = SolverChoice { contact, model, ..SolverChoice::default() };
-        (key.view, key.title, key.note) = (View::default(), String::new(), String::new());
-        key
+        (machine, scene.solver.model, if is_usual { speed.signum() } else { speed })
     }
 }
 
@@ -82,10 +73,10 @@ fn markers(scene: &Scene, machine: &Machine) -> Vec<(f64, &'static str)> {
     markers
 }
 
-/// Returns a rounded speed range around the marked speeds and the current one, as magnitudes
+/// Returns a rounded speed range around the marked speeds and the speed `now`, as magnitudes
 /// \[rad/s\]; `None` without a marked speed.
-fn range(scene: &Scene, markers: &[(f64, &'static str)]) -> Option<(f64, f64)> {
-    let present = Some(scene.operation.speed_rad_s.abs()).filter(|speed| *speed > 0.0);
+fn range(now: f64, markers: &[(f64, &'static str)]) -> Option<(f64, f64)> {
+    let present = Some(now.abs()).filter(|speed| *speed > 0.0);
     let of_interest = || markers.iter().map(|(speed, _)| *speed).chain(present);
     let first = markers.first()?.0;
     let low = of_interest().fold(first, f64::min);

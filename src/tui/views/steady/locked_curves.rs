@@ -35,7 +35,7 @@ impl LockedCurves {
     /// Computes the curves of a scene.
     pub fn of(scene: &Scene) -> Self {
         let machine = scene.machine();
-        let fastest = speed_range(scene);
+        let fastest = speed_range(scene, scene.operation.speed_rad_s);
         let step = fastest / f64::from(POINTS - 1);
         // A rotor that turns backward has its own locked motion, drawn over |Ω|.
         let sense = scene.operation.speed_rad_s.signum();
@@ -135,11 +135,10 @@ const BESIDE: f64 = 1.05;
 /// many times the highest speed without it.
 const FURTHER: f64 = 1.6;
 
-/// Returns a rounded speed above the thresholds and the current speed \[rad/s\].
-pub fn speed_range(scene: &Scene) -> f64 {
+/// Returns a rounded speed above the thresholds and the speed `now` \[rad/s\].
+pub fn speed_range(scene: &Scene, now: f64) -> f64 {
     let machine = scene.machine();
-    let of_interest =
-        [machine.lock_speed(), machine.dangerous_speed(), Some(scene.operation.speed_rad_s.abs())];
+    let of_interest = [machine.lock_speed(), machine.dangerous_speed(), Some(now.abs())];
     let most = of_interest.into_iter().flatten().filter(|s| s.is_finite()).fold(1.0, f64::max);
     // The upper end of a lock can be far away.
     let ends = marks(scene, &machine).into_iter().map(|(speed, _)| speed);

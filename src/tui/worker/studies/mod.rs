@@ -18,7 +18,8 @@ use crate::tui::views::spectrum::lines::Spectrum;
 use crate::tui::views::steady::coincidence_curves::CoincidenceCurves;
 use crate::tui::views::steady::locked_curves::LockedCurves;
 use crate::tui::worker::background::{Job, on_spare_cores};
-use rubscope_solver::scene::{CheckedScene, Scene};
+use rubscope_solver::model::Machine;
+use rubscope_solver::scene::{CheckedScene, ModelSize, Scene};
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
 use rubscope_solver::study::survey::Survey;
@@ -153,15 +154,15 @@ impl Study for SpectrumStudy {
 struct CoincidenceStudy;
 
 impl Study for CoincidenceStudy {
-    type Key = Scene;
+    type Key = (Machine, ModelSize, f64);
     type Found = Option<CoincidenceCurves>;
     const VIEW: ViewId = ViewId::Coincidence;
 
-    fn key(given: &Given) -> Option<Scene> {
+    fn key(given: &Given) -> Option<Self::Key> {
         given.order.shows(Self::VIEW).then(|| CoincidenceCurves::key(&given.order.scene))
     }
 
-    fn begin(_: &Scene, given: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
+    fn begin(_: &Self::Key, given: &Given, _: Option<&Self::Found>) -> Job<Self::Found> {
         let scene = given.order.scene.clone();
         Job::by(move |to, _| _ = to.send(CoincidenceCurves::of(&scene)))
     }
