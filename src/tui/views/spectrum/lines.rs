@@ -1,8 +1,6 @@
-//! Amplitude spectrum of the casing motion over a run: Hann window, then a real Fourier transform.
+//! Amplitude spectrum of the casing motion over a run: Hann window, then a Fourier sum for each line.
 
 use std::f64::consts::TAU;
-
-use realfft::RealFftPlanner;
 
 use crate::tui::axis::round_out;
 use rubscope_solver::scene::Scene;
@@ -60,25 +58,31 @@ fn highest(scene: &Scene) -> f64 {
     round_out(0.0, 1.3 * most, 5).1
 }
 
-/// Returns the amplitude of each line, scaled such that a sine at the frequency of a line gives its
-/// own amplitude there.
+/// Returns the amplitude of each line up to half the rate of the samples, scaled such that a sine at
+/// the frequency of a line gives its own amplitude there.
 /// Empty for fewer than 8 samples, or if one is not finite.
 fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
     let count = samples.len();
     if count < 8 || samples.iter().any(|x| !x.is_finite()) {
         return Vec::new();
     }
-    for (k, sample) in samples.iter_mut().enumerate() {
-        *sample *= 0.5 - 0.5 * (TAU * k as f64 / count as f64).cos();
+    let turns: Vec<(f64, f64)> =
+        (0..count).map(|k| (TAU * k as f64 / count as f64).sin_cos()).collect();
+    for (sample, (_, cos)) in samples.iter_mut().zip(&turns) {
+        *sample *= 0.5 - 0.5 * cos;
     }
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(count);
-    let mut lines = transform.make_output_vec();
-    if transform.process(&mut samples, &mut lines).is_err() {
-        return Vec::new();
-    }
-    // The Hann window halves a sine's amplitude, and the transform gives count/2 times it: factor
-    // 4/count.
-    lines.iter().map(|line| 4.0 * line.norm() / count as f64).collect()
+    let amplitude = |line: usize| {
+        let (mut cosine, mut sine, mut turn) = (0.0, 0.0, 0);
+        for sample in &samples {
+            let (sin, cos) = turns[turn];
+            cosine += sample * cos;
+            sine += sample * sin;
+            turn = (turn + line) % count;
+        }
+        // The Hann window halves a sine's amplitude, and the sum is count/2 times it.
+        4.0 / count as f64 * f64::hypot(cosine, sine)
+    };
+    (0..=count / 2).map(amplitude).collect()
 }
 
 #[cfg(test)]
