@@ -142,9 +142,17 @@ impl Moves {
     }
 }
 
-/// Speed of the playback.
+/// Speed of the solver and of the playback.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
+    /// Wall-clock time per time step taken \[s\]; `None` for solvers without steps, and until it
+    /// is measured.
+    pub step_s: Option<f64>,
+    /// Fraction of the time steps that was skipped in blocks, 0 to 1; `None` for solvers without
+    /// steps.
+    pub skipped: Option<f64>,
+    /// Wall-clock time of the whole run to `solver.end_s` \[s\]; `None` until it is complete.
+    pub run_s: Option<f64>,
     /// Rate reached by the playback, simulated time per wall-clock time; `None` if it is not known.
     pub reached: Option<f64>,
     /// Why the playback is slower than requested.
@@ -328,7 +336,7 @@ pub struct Results {
     pub comparison_page: Option<Arc<PageRecord>>,
     /// Curves of the same page of the pinned run.
     pub pinned_page: Option<Arc<PageRecord>>,
-    /// Speed of the playback.
+    /// Speed of the solver and of the playback.
     pub pace: Pace,
 }
 

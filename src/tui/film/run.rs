@@ -34,6 +34,8 @@ pub struct Film {
     slice: Duration,
     /// Wall-clock time after which the film is computed only as far as it is watched.
     limit: Duration,
+    /// Steps taken and skipped before this film was computed.
+    before: [u64; 2],
     /// The verdict proved before the end; `None` until then.
     proved: Option<Verdict>,
     /// The result; `None` until the film is complete.
@@ -65,6 +67,7 @@ impl Film {
             wall: Duration::ZERO,
             slice: SLICE,
             limit: FORECAST_LIMIT,
+            before: steps(&ahead.motion).unwrap_or_default(),
             proved: None,
             result: None,
             page: Page::default(),
@@ -237,6 +240,28 @@ impl Film {
         self.result.is_some() || self.wall >= self.limit
     }
 
+    /// Returns the wall-clock time per time step that was taken, not skipped \[s\]; `None` for
+    /// solvers without steps, and before the first one.
+    pub fn step_s(&self) -> Option<f64> {
+        let [taken, _] = self.steps()?;
+        (taken > 0).then(|| self.wall.as_secs_f64() / taken as f64)
+    }
+
+    /// Returns the fraction of the time steps that was skipped, 0 to 1; `None` for solvers without
+    /// steps, and before the first one.
+    pub fn skipped(&self) -> Option<f64> {
+        let [taken, skipped] = self.steps()?;
+        (taken + skipped > 0).then(|| skipped as f64 / (taken + skipped) as f64)
+    }
+
+    /// Returns the numbers of steps taken and skipped for this film; `None` for solvers without
+    /// steps.
+    fn steps(&self) -> Option<[u64; 2]> {
+        let [taken, skipped] = steps(&self.ahead.motion)?;
+        let [taken_before, skipped_before] = self.before;
+        Some([taken.saturating_sub(taken_before), skipped.saturating_sub(skipped_before)])
+    }
+
     /// Returns whether a slice of the page can be computed now: its start is known, or never will
     /// be.
     pub fn has_page_due(&self) -> bool {
@@ -250,6 +275,12 @@ impl Film {
         let from = from.and_then(|(from, _)| self.before(from).cloned());
         self.page.compute(from, self.plan.scene.solver.step_s);
     }
+}
+
+/// Returns the numbers of steps that a motion has taken and skipped; `None` for solvers without
+/// steps.
+fn steps(motion: &Motion) -> Option<[u64; 2]> {
+    Some([motion.steps_taken()?, motion.steps_skipped()?])
 }
 
 #[cfg(test)]

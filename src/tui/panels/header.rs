@@ -5,7 +5,9 @@
 
 use ratatui::{buffer::Buffer, layout::Rect, style::Modifier, style::Style};
 
-use crate::sheet::number::{in_tenths, per_speed, rounded, short as digits, speed_unit};
+use crate::sheet::number::{
+    in_tenths, per_speed, rounded, short as digits, speed_unit, trimmed, with_unit,
+};
 use crate::sheet::sentence::Sentence;
 use crate::tui::app::App;
 use crate::tui::appearance::Appearance;
@@ -15,7 +17,6 @@ use crate::tui::text::{columns, pieces, print};
 use crate::tui::theme::{Role, Theme};
 use crate::tui::views::map::colour;
 use rubscope_solver::motion::Verdict;
-use rubscope_solver::scene::SolverKind;
 
 type Parts = Vec<(String, Style)>;
 
@@ -131,6 +132,7 @@ fn second(app: &App, buffer: &mut Buffer, area: Rect) {
     parts.extend(modes(app));
     parts.extend(next(app));
     parts.extend(limits(app));
+    parts.extend(cost(app));
     let width_of = |part: &Part| {
         let pieces = part.pieces.iter().map(|(text, _)| columns(&look.spell(text)));
         part.gap.len() + pieces.sum::<usize>()
@@ -265,15 +267,14 @@ fn end(app: &App) -> Vec<Part> {
     parts
 }
 
-/// Returns a note if the sensitivity check was given up, or, for a doubtful verdict of a run that may
-/// skip steps, how to check it; `None` otherwise.
+/// Returns a note if the sensitivity check was given up, or, for a doubtful verdict with skipped
+/// steps, how to check it; `None` otherwise.
 fn unsure(app: &App) -> Option<Part> {
-    let (results, solver) = (app.results(), &app.scene.solver);
-    let known = results.sensitive.known();
+    let (results, known) = (app.results(), app.results().sensitive.known());
     let doubtful = known.sensitive || known.depends_on_step == Some(true);
     let (rank, text) = if results.sensitive == Sensitive::GivenUp {
         (7, format!("small changes: not checked in {} s", FORECAST_LIMIT.as_secs()))
-    } else if doubtful && solver.kind == SolverKind::Explicit && !solver.plain {
+    } else if doubtful && results.pace.skipped.is_some_and(|part| part > 0.0) {
         (2, "audit: A".to_string())
     } else {
         return None;
@@ -311,6 +312,23 @@ fn next(app: &App) -> Option<Part> {
     let next = app.next_change().filter(|_| !app.is_asked())?;
     let (what, after) = (app.happening(next.what), readable(next.t_s - app.now(), "s"));
     Some(plain(8, format!("next: {what} in {after}"), Role::Quiet))
+}
+
+/// Returns the cost of the run: wall-clock time per step taken, fraction of skipped steps, and
+/// wall-clock time in all. `None` until the run is complete.
+fn cost(app: &App) -> Option<Part> {
+    let pace = &app.results().pace;
+    let run = pace.run_s?;
+    let mut parts = Vec::new();
+    parts.extend(pace.step_s.map(|step| format!("{}/step taken", with_unit(step, 3, "s"))));
+    if let Some(part) = pace.skipped {
+        // Round down, so that 100 % means that no step was taken.
+        let percent = (1e3 * part).floor() / 10.0;
+        parts.push(format!("{} % skipped", trimmed(&format!("{percent:.1}"))));
+    }
+    let [end, run] = [app.scene.solver.end_s, run].map(|time| with_unit(time, 3, "s"));
+    parts.push(format!("{end} in {run}"));
+    Some(plain(11, parts.join(", "), Role::Quiet))
 }
 
 #[cfg(test)]

@@ -152,7 +152,12 @@ impl Films {
             page: own.page.done.clone(),
             comparison_page: page(&self.other),
             pinned_page: page(&self.pinned),
-            pace: Pace::default(),
+            pace: Pace {
+                step_s: own.step_s(),
+                skipped: own.skipped(),
+                run_s: own.result.as_ref().map(|_| own.wall.as_secs_f64()),
+                ..Pace::default()
+            },
             found: self.studies.found(order, own),
             working: self.studies.working(order, own),
         }
