@@ -115,20 +115,20 @@ fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
         &figure,
         "at each of 50 steps from 0.01 to 1 µs it locks from 75 to 81 ms, at some 30 of them"
     ));
-    let all = at_steps(4, "43400", 5);
+    let all = at_steps(4, "43400", 10, 4);
     assert!(all.iter().all(|(t, _)| t.is_some_and(|t| (0.075..0.081).contains(&t))), "{all:?}");
     let of_paper = all.iter().filter(|(_, held)| *held == [6, 21]).count();
     assert!((4..9).contains(&of_paper), "{of_paper}");
     // 40 kN, as the caption says.
     assert!(says(&figure, "40 kN locks at 84 to 90 ms on other blades"));
-    for (time, held) in at_steps(4, "40000", 5) {
+    for (time, held) in at_steps(4, "40000", 10, 4) {
         assert!(time.is_some_and(|t| (0.084..0.090).contains(&t)) && held != [6, 21], "{time:?}");
     }
 }
 
-/// When a scene locks at 50 steps from 0.01 to 1 µs, or at every so many of them, and on which
-/// blades.
-fn at_steps(number: u32, pulse: &str, every: usize) -> Vec<(Option<f64>, Vec<u32>)> {
+/// When a scene locks at 50 steps from 0.01 to 1 µs, or from one of them on at every so many, and on
+/// which blades. The shortest take longest.
+fn at_steps(number: u32, pulse: &str, first: u32, every: usize) -> Vec<(Option<f64>, Vec<u32>)> {
     let scene = with(number, &[("operation.pulse_n", pulse)]);
     let step = |n: u32| 1e-8 * 100_f64.powf(f64::from(n) / 49.0);
     let run = |n: u32| {
@@ -139,7 +139,7 @@ fn at_steps(number: u32, pulse: &str, every: usize) -> Vec<(Option<f64>, Vec<u32
         held.sort_unstable();
         (outcome.lock_time_s, held)
     };
-    (0..50).into_par_iter().step_by(every).map(run).collect()
+    (first..50).into_par_iter().step_by(every).map(run).collect()
 }
 
 /// With the damping of Table 1 no pulse locks as late as the paper says.
@@ -176,7 +176,8 @@ fn with_the_damping_of_table_1_every_lock_is_early() {
 #[test]
 fn figure_7_locks_earlier_than_the_paper_at_most_steps_and_when_it_does_depends_on_the_step() {
     let times = |pulse: &str| {
-        let mut times: Vec<f64> = at_steps(7, pulse, 1).into_iter().filter_map(|at| at.0).collect();
+        let mut times: Vec<f64> =
+            at_steps(7, pulse, 0, 1).into_iter().filter_map(|at| at.0).collect();
         times.sort_by(f64::total_cmp);
         times
     };

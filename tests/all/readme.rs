@@ -7,11 +7,12 @@ use rubscope::tui::{Marker, Theme, export};
 use rubscope_solver::scene::Scene;
 
 use crate::cli_support::{ended, program};
+use crate::stepwise::Stepwise;
 use crate::tui_support::Session;
 
 fn open(theme: Theme) -> Session {
     let scene = Scene::builtin("paper-nd3").unwrap();
-    Session::open(120, 40, scene, theme, Marker::Braille)
+    Session::searched(120, 40, scene, theme, Marker::Braille)
 }
 
 /// The screen of the default scene some milliseconds after its start.
@@ -106,7 +107,9 @@ impl Moving {
 fn first_minute(theme: Theme) -> String {
     let (slow, fast) = (4e-6, 4e-4);
     let scene = Scene::builtin("paper-nd3").unwrap();
-    let session = Session::with_stride((80, 24), slow, scene, theme, Marker::Braille);
+    let mut engine = Stepwise::new(slow);
+    engine.extent.searches_changes = true;
+    let session = Session::with_engine((80, 24), engine, scene, theme, Marker::Braille);
     let mut moving = Moving { session, frames: Vec::new() };
     moving.film("rubscope: a pulse pushes the casing, and two blades catch its wave", 9, 6);
     moving.session.press("c");
@@ -118,7 +121,7 @@ fn first_minute(theme: Theme) -> String {
     }
     moving.session.press("\n");
     moving.film("Enter 400 Enter: the speed is turned down, and one blade pulls", 9, 6);
-    moving.session.engine.map_cells = usize::MAX;
+    moving.session.engine.extent.most_cells = usize::MAX;
     moving.session.press("5");
     moving.film("5: the map of all speeds and pulses", 1, 50);
     moving.picture()
@@ -229,8 +232,8 @@ fn every_view_has_its_picture_on_the_page_of_the_explorer() {
     let views = ["1", "2", "3", "4", "5", "6", "7", "8", "9"];
     let check = |view: &str| {
         let scene = Scene::builtin(if view == "9" { "coincidence" } else { "paper-nd3" }).unwrap();
-        let mut session = Session::open(80, 24, scene, Theme::Dark, Marker::Braille);
-        session.engine.map_cells = usize::MAX;
+        let mut session = Session::searched(80, 24, scene, Theme::Dark, Marker::Braille);
+        session.engine.extent.most_cells = usize::MAX;
         session.press(&format!("{view}f"));
         // The second page of view 1 is nearly full.
         (0..if view == "1" { 9 } else { 4 }).for_each(|_| _ = session.press(""));

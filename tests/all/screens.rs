@@ -2,7 +2,7 @@
 //!
 //! | line | it does |
 //! |---|---|
-//! | `@ 80x24 SCENE WORDS` | opens the explorer; words: `mono`, `ascii`, `unchecked`, `stride=SECONDS`, `KEY=VALUE` |
+//! | `@ 80x24 SCENE WORDS` | opens the explorer; words: `mono`, `ascii`, `unchecked`, `searched`, `stride=SECONDS`, `KEY=VALUE` |
 //! | `> KEYS` | presses them in one go; a line without keys lets two frames pass |
 //! | `>> KEYS` | presses them one by one |
 //! | `= 120x40` | gives the screen another size |
@@ -42,19 +42,20 @@ fn open(line: &str) -> Session {
         name => Scene::builtin(name).unwrap(),
     };
     let (mut theme, mut marker, mut stride) = (Theme::Dark, Marker::Braille, 3e-3);
-    let mut checks = true;
+    let (mut checks, mut searches) = (true, false);
     for word in words {
         match word.split_once('=') {
             None if word == "ascii" => marker = Marker::Ascii,
             None if word == "mono" => theme = Theme::Mono,
             None if word == "unchecked" => checks = false,
-            None => panic!("{word}: allowed is ascii, mono or unchecked"),
+            None if word == "searched" => searches = true,
+            None => panic!("{word}: allowed is ascii, mono, unchecked or searched"),
             Some(("stride", seconds)) => stride = seconds.parse().unwrap(),
             Some((key, value)) => opened.set(key, value).unwrap(),
         }
     }
     let mut engine = Stepwise::new(stride);
-    engine.checks = checks;
+    (engine.checks, engine.extent.searches_changes) = (checks, searches);
     Session::with_engine(size, engine, opened, theme, marker)
 }
 

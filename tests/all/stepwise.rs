@@ -10,7 +10,7 @@ use rubscope::tui::engine::{Engine, Limit, Order, Pace, Sensitive, Snapshot};
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::files::{FileJob, FoundScenes};
 use rubscope::tui::host::Host;
-use rubscope::tui::worker::Playback;
+use rubscope::tui::worker::{Extent, Playback};
 
 /// A host without a terminal; files are written at once.
 #[derive(Debug, Default)]
@@ -35,12 +35,13 @@ impl Host for NoHost {
 }
 
 /// The engine driven by hand.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Stepwise {
     /// Motion between two snapshots \[s\].
     pub stride: f64,
-    /// Cells of a map that are computed: all blocks of eight by eight, and some finer ones.
-    pub map_cells: usize,
+    /// How much is computed: of a map all blocks of eight by eight, and some finer ones. What else
+    /// changes the verdict, some hundred runs, is left to those who look at it.
+    pub extent: Extent,
     /// Whether a run is checked for tiny changes: four more runs.
     pub checks: bool,
     order: Option<Order>,
@@ -51,7 +52,8 @@ pub struct Stepwise {
 impl Stepwise {
     /// Creates an engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
-        Self { stride, map_cells: 66, checks: true, order: None, playback: None, fresh: false }
+        let extent = Extent { most_cells: 66, searches_changes: false, rest: Duration::ZERO };
+        Self { stride, extent, checks: true, ..Self::default() }
     }
 }
 
@@ -66,7 +68,7 @@ impl Engine for Stepwise {
         let start = || Playback::new(order.clone(), Duration::MAX);
         let playback = self.playback.get_or_insert_with(start);
         playback.apply(order);
-        playback.films.studies.most_cells = Some(self.map_cells);
+        playback.films.studies.extent = self.extent;
         if !self.checks {
             playback.films.sensitive = Some(Sensitive::Unknown);
         }
@@ -80,7 +82,10 @@ impl Engine for Stepwise {
         }
         self.fresh = false;
         let mut snapshot = playback.snapshot();
-        snapshot.results.pace = Pace { limit: Limit::None, reached: Some(order.rate) };
+        let pace = &mut snapshot.results.pace;
+        let step_s = pace.step_s.map(|_| 42e-9);
+        let reached = Some(order.rate);
+        *pace = Pace { step_s, run_s: Some(42e-3), limit: Limit::None, reached, ..*pace };
         Some(snapshot)
     }
 }

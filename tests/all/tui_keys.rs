@@ -1,8 +1,8 @@
-//! Keys, signals and sizes that come to the explorer: pause and steps, files, and ways to leave.
+//! Keys and sizes that come to the explorer: pause and steps, files, and a storm of both.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::{Exit, Marker, Theme};
+use rubscope::tui::{Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::tui_support::{Session, scene};
@@ -18,14 +18,6 @@ fn pause_stops_time_and_a_step_is_one_step() {
     let steps = (session.app.now() - before) / session.app.scene.solver.step_s;
     // Three steps, to the round-off of a time that is a multiple of a step.
     assert!((steps - 3.0).abs() < 1e-6, "{steps}");
-}
-
-#[test]
-fn signals_and_a_lost_terminal_end_with_their_number() {
-    for (event, number) in [(ScreenEvent::Signal(15), 15), (ScreenEvent::InputClosed, 1)] {
-        let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
-        assert_eq!(session.send([event].into_iter()), Exit::Signal(number));
-    }
 }
 
 #[test]

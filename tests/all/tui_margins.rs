@@ -14,7 +14,7 @@ fn short() -> Scene {
 }
 
 fn open(size: (u16, u16), scene: Scene) -> Session {
-    let mut session = Session::open(size.0, size.1, scene, Theme::Dark, Marker::Braille);
+    let mut session = Session::searched(size.0, size.1, scene, Theme::Dark, Marker::Braille);
     session.press("8");
     session
 }
@@ -42,7 +42,7 @@ fn selected(session: &Session) -> &'static str {
 
 #[test]
 fn the_margins_follow_the_knobs_and_nothing_is_computed_while_they_are_closed() {
-    let mut session = Session::open(120, 40, short(), Theme::Dark, Marker::Braille);
+    let mut session = Session::searched(120, 40, short(), Theme::Dark, Marker::Braille);
     session.press("");
     assert!(session.app.margins().is_none());
     session.press("8");
@@ -105,11 +105,11 @@ fn the_columns_and_rows_that_have_no_room_are_said_or_left_out() {
 fn a_companion_has_the_symbols_per_cents_and_words_and_mono_needs_no_colour() {
     let mut scene = short();
     scene.view.charts = vec!["response".into(), "margins".into(), "gaps".into()];
-    let mut session = Session::open(120, 40, scene.clone(), Theme::Dark, Marker::Braille);
+    let mut session = Session::searched(120, 40, scene.clone(), Theme::Dark, Marker::Braille);
     session.press(" ");
     assert!(session.text().contains("Ω_lock ") && session.text().contains("-17.6 %"));
     insta::assert_snapshot!("margins_companion", session.text());
-    let mut plain = Session::open(120, 40, short(), Theme::Mono, Marker::Ascii);
+    let mut plain = Session::searched(120, 40, short(), Theme::Mono, Marker::Ascii);
     plain.press("8 i");
     let text = plain.text();
     assert!(text.is_ascii() && text.contains("Om_lock"), "{text}");

@@ -9,7 +9,7 @@ use crate::tui_support::{Session, scene};
 #[test]
 fn the_first_screen_at_four_sizes() {
     for (width, height) in [(80, 24), (120, 40), (40, 12), (200, 50)] {
-        let session = Session::open(width, height, scene(), Theme::Dark, Marker::Braille);
+        let session = Session::searched(width, height, scene(), Theme::Dark, Marker::Braille);
         insta::assert_snapshot!(format!("first_{width}x{height}"), session.text());
     }
 }
@@ -17,7 +17,7 @@ fn the_first_screen_at_four_sizes() {
 #[test]
 fn each_view_and_the_help_in_ascii() {
     for (name, keys) in [("response", "1f"), ("gaps", "2f"), ("locked", "3f"), ("help", "?")] {
-        let mut session = Session::open(80, 24, scene(), Theme::Mono, Marker::Ascii);
+        let mut session = Session::searched(80, 24, scene(), Theme::Mono, Marker::Ascii);
         session.press(keys);
         let text = session.text();
         assert!(text.is_ascii(), "{text}");
@@ -30,7 +30,7 @@ fn scenes_of_each_kind_of_end() {
     for (name, width, height) in [("slip", 120, 40), ("rub", 80, 24), ("grazing", 80, 24)] {
         let mut scene = Scene::builtin(name).unwrap();
         scene.solver.end_s = 0.02;
-        let session = Session::open(width, height, scene, Theme::Dark, Marker::Braille);
+        let session = Session::searched(width, height, scene, Theme::Dark, Marker::Braille);
         insta::assert_snapshot!(format!("{name}_{width}x{height}"), session.text());
     }
 }
@@ -38,7 +38,7 @@ fn scenes_of_each_kind_of_end() {
 #[test]
 fn every_view_with_the_large_chart_at_120_by_40() {
     for digit in ['1', '2', '3', '4', '5', '6', '8'] {
-        let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
+        let mut session = Session::searched(120, 40, scene(), Theme::Dark, Marker::Braille);
         session.press(&if digit == '4' { "f".into() } else { digit.to_string() });
         insta::assert_snapshot!(format!("view_{digit}"), session.text());
     }
@@ -50,7 +50,7 @@ fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
     let marks = |speed: f64| {
         let mut scene = scene();
         scene.operation.speed_rad_s = speed;
-        let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Ascii);
+        let mut session = Session::searched(120, 40, scene, Theme::Dark, Marker::Ascii);
         session.press("6f ");
         let text = session.text();
         let row = text.lines().rfind(|line| line.matches('@').count() == 3);
@@ -69,7 +69,7 @@ fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
 
 #[test]
 fn themes_differ_in_colour_only_and_mono_has_none() {
-    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+    let mut session = Session::searched(80, 24, scene(), Theme::Dark, Marker::Braille);
     session.press(" ");
     let before = session.text();
     for theme in ["light", "colour-blind on dark", "colour-blind on light", "mono"] {
@@ -94,7 +94,7 @@ fn a_first_screen_is_red_only_where_the_state_is_wrong() {
             (scene(), (200, 50), 0..=0),
             (adhesive(), (80, 24), 1..=2),
         ] {
-            let session = Session::open(width, height, scene, theme, Marker::Braille);
+            let session = Session::searched(width, height, scene, theme, Marker::Braille);
             let buffer = session.terminal.backend().buffer();
             let places: usize = buffer
                 .content
@@ -112,7 +112,7 @@ fn a_first_screen_is_red_only_where_the_state_is_wrong() {
 /// Nothing of the first two lines is ever cut, whatever the width.
 #[test]
 fn the_first_two_lines_are_whole_at_every_width() {
-    let mut session = Session::open(200, 24, scene(), Theme::Mono, Marker::Ascii);
+    let mut session = Session::searched(200, 24, scene(), Theme::Mono, Marker::Ascii);
     for width in 40..=200_u16 {
         session.resize((width, 24));
         let rows = session.rows();
@@ -156,7 +156,7 @@ fn styles(session: &Session) -> String {
 #[test]
 fn the_colours_of_the_light_and_the_weights_of_the_mono_theme() {
     for (name, theme) in [("light", Theme::Light), ("mono", Theme::Mono)] {
-        let session = Session::open(80, 24, scene(), theme, Marker::Ascii);
+        let session = Session::searched(80, 24, scene(), theme, Marker::Ascii);
         insta::assert_snapshot!(format!("styles_{name}_80x24"), styles(&session));
     }
 }
@@ -170,7 +170,7 @@ fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
     scene.solver.end_s = 0.05;
     let mut width = |angle: f64| {
         (scene.casing.lobes, scene.casing.out_of_round_angle_rad) = (2, angle);
-        let mut session = Session::open(80, 40, scene.clone(), Theme::Mono, Marker::Braille);
+        let mut session = Session::searched(80, 40, scene.clone(), Theme::Mono, Marker::Braille);
         session.press("4f");
         let drawn = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
         // The wheel is on the left.
@@ -188,19 +188,13 @@ fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
 
 #[test]
 fn two_laws_have_the_whole_height_and_the_same_axes() {
-    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
-    session.press("c");
-    session.press("");
-    let text = session.text();
-    assert!(text.contains("bilateral: LOCKED") && text.contains("unilateral: DECAY"), "{text}");
-    assert!(!text.contains("2 gaps") && !text.contains("pulse F"), "{text}");
-    insta::assert_snapshot!("laws_80x24", text);
-    let mut session = Session::open(120, 40, scene(), Theme::Dark, Marker::Braille);
-    session.press("c");
-    session.press("");
-    let text = session.text();
-    assert!(text.contains("pulse F") && !text.contains("2 gaps"), "{text}");
-    insta::assert_snapshot!("laws_120x40", text);
-    let row = text.lines().find(|line| line.contains("bilateral: LOCKED")).unwrap();
-    assert!(row.contains("unilateral: DECAY"), "{text}");
+    for (width, height, has_casing) in [(80, 24, false), (120, 40, true)] {
+        let mut session = Session::searched(width, height, scene(), Theme::Dark, Marker::Braille);
+        session.press("c");
+        session.press("");
+        let text = session.text();
+        assert!(text.contains("bilateral: LOCKED") && text.contains("unilateral: DECAY"), "{text}");
+        assert_eq!((text.contains("pulse F"), text.contains("2 gaps")), (has_casing, false));
+        insta::assert_snapshot!(format!("laws_{width}x{height}"), text);
+    }
 }

@@ -53,6 +53,13 @@ impl Session {
         Self::with_stride((width, height), 3e-3, scene, theme, marker)
     }
 
+    /// The same, with all that the margins search.
+    pub fn searched(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
+        let mut engine = Stepwise::new(3e-3);
+        engine.extent.searches_changes = true;
+        Self::with_engine((width, height), engine, scene, theme, marker)
+    }
+
     pub fn with_stride(
         size: (u16, u16),
         stride: f64,

@@ -9,4 +9,5 @@ mod thread;
 
 pub use background::WORKER_NAME;
 pub use playback::{PLAY_TIME, Playback};
+pub use studies::Extent;
 pub use thread::Worker;

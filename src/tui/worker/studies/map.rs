@@ -39,7 +39,7 @@ impl Study for MapStudy {
     fn begin(plan: &MapPlan, given: &Given, before: Option<&LiveMap>) -> Job<LiveMap> {
         let same = before.filter(|live| live.map.plan == *plan).cloned();
         let live = same.unwrap_or_else(|| LiveMap::of(plan.clone()));
-        let most = given.most_cells.unwrap_or(usize::MAX);
+        let most = given.extent.most_cells;
         Job::by(move |to, go_on| on_spare_cores(|| compute(live, most, to, go_on)))
     }
 

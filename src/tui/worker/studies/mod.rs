@@ -8,6 +8,7 @@ mod study;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+pub use study::Extent;
 use study::{Given, Study, StudySlot, Work};
 
 use crate::tui::engine::{FORECAST_LIMIT, Found, Order, SLICE, Working};
@@ -24,16 +25,13 @@ use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::precision::{Effort, Measure, Precision, ways};
 use rubscope_solver::study::survey::Survey;
 
-/// Wall-clock time for which a knob rests before the survey and the runs of the margins begin.
-const REST: Duration = Duration::from_millis(200);
-
 macro_rules! studies {
     ($($name:ident: $study:ty,)*) => {
         /// The studies of one scene, in order of computation.
         #[derive(Debug, Default)]
         pub struct Studies {
-            /// Largest number of computed map cells, for tests; `None` computes all.
-            pub most_cells: Option<usize>,
+            /// How much is computed.
+            pub extent: Extent,
             $($name: StudySlot<$study>,)*
         }
 
@@ -67,7 +65,7 @@ studies! {
 
 impl Studies {
     fn given<'a>(&self, order: &'a Order, run: &'a Film) -> Given<'a> {
-        Given { order, plan: order.map_plan(), run, most_cells: self.most_cells }
+        Given { order, plan: order.map_plan(), run, extent: self.extent }
     }
 
     /// Stops unneeded studies, so that the others have the processor.
@@ -188,12 +186,13 @@ impl Study for MarginsStudy {
 
     fn begin(
         (scene, range, every_law): &Self::Key,
-        _: &Given,
+        given: &Given,
         before: Option<&Self::Found>,
     ) -> Job<Self::Found> {
         let (scene, range, every_law) = (scene.clone(), *range, *every_law);
         // Before the first margins no knob was turned.
-        let rest = before.map_or(Duration::ZERO, |_| REST);
+        let rest = before.map_or(Duration::ZERO, |_| given.extent.rest);
+        let searches = given.extent.searches_changes;
         Job::by(move |to, go_on| {
             let mut margins = Margins::of(&scene);
             let send = |margins: &Margins, survey: &Option<Arc<Survey>>| {
@@ -207,7 +206,9 @@ impl Study for MarginsStudy {
             let survey = Survey::of(&scene, range, None).ok().map(Arc::new);
             send(&margins, &survey);
             let known = &mut |margins: &Margins| send(margins, &survey);
-            on_spare_cores(|| margins.ask_runs(every_law, go_on, known));
+            if searches {
+                on_spare_cores(|| margins.ask_runs(every_law, go_on, known));
+            }
         })
     }
 }

@@ -22,8 +22,26 @@ pub struct Given<'a> {
     pub plan: Option<MapPlan>,
     /// The run to its end.
     pub run: &'a Film,
-    /// Largest number of computed map cells, for tests; `None` computes all.
-    pub most_cells: Option<usize>,
+    /// How much is computed.
+    pub extent: Extent,
+}
+
+/// How much the studies compute. A test leaves out what it does not look at.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// Largest number of computed map cells.
+    pub most_cells: usize,
+    /// Whether the margins search the nearest changes of the verdict.
+    pub searches_changes: bool,
+    /// Wall-clock time for which a knob rests before the survey and the runs of the margins begin.
+    pub rest: Duration,
+}
+
+impl Default for Extent {
+    fn default() -> Self {
+        let rest = Duration::from_millis(200);
+        Self { most_cells: usize::MAX, searches_changes: true, rest }
+    }
 }
 
 /// A study: its inputs, and the job that computes its result.
