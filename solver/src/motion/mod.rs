@@ -31,7 +31,7 @@ pub use drive::{Pulse, Rotor, State};
 pub(crate) use event::EVENT;
 pub use event::Events;
 pub use failure::{Failure, FailureReason};
-use plane::{Plane, across, dot, size};
+use plane::{Plane, across, dot, size, turned};
 pub use propagator::FreeFlight;
 pub use report::{
     FinalState, ImpactReport, LAST_PART, RunReport, Seen, SolverReport, VerdictReached, judge_end,

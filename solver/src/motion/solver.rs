@@ -3,10 +3,10 @@
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 
-use super::explicit::{Explicit, turned};
+use super::explicit::Explicit;
 use super::{
     Checks, ContactLog, EnergyAccount, Events, Failure, FailureReason, Plane, Pulse, Rotor, State,
-    Verdict,
+    Verdict, turned,
 };
 use crate::model::Machine;
 use crate::scene::{CheckedScene, SolverKind};

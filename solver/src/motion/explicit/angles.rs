@@ -62,7 +62,8 @@ impl Disk {
     /// Returns the largest angle about the mean of all blades; for a pair, its amplitude \[rad\].
     pub fn swing(&mut self) -> f64 {
         if self.fixed.is_pair {
-            return self.amplitude();
+            let [c, s] = self.pair_angles();
+            return (c * c + s * s).sqrt();
         }
         let (angles, _) = self.angles_within(0.0);
         let mean = angles.iter().sum::<f64>() / angles.len() as f64;
@@ -82,11 +83,6 @@ impl Disk {
             }
             _ => modes.map(reach).sum(),
         }
-    }
-
-    /// From now on records only angles beyond the limit of the model.
-    pub fn forgo_largest(&mut self) {
-        self.largest = self.largest.max(LARGEST_BLADE_ANGLE);
     }
 
     /// Updates the largest angle. Returns the angle that is beyond the limit of the model, if one

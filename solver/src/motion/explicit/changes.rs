@@ -37,7 +37,7 @@ impl Explicit {
         self.long_step = long_step(scene, &self.machine);
         // Gaps of earlier steps may change by as much as the clearance.
         self.dips = [self.machine.clearance().abs(); 2];
-        let tips = Arc::new(Tips::new(&self.machine, self.disk.rows().0));
+        let tips = Arc::new(Tips::new(&self.machine, &self.disk));
         self.drive.set_parameters(self.n, scene, tips.lobes);
         let old = std::mem::replace(&mut self.tips_of_rows, tips);
         if old.rows.len() != self.tips_of_rows.rows.len() {
@@ -96,17 +96,12 @@ impl Explicit {
         self.machine.changes_with_speed() && self.drive.rotor.ramp() != 0.0
     }
 
-    /// Updates the machine from the beginning of a step to its end.
+    /// Updates the machine from the beginning of a step on a ramp to its end.
     ///
     /// # Errors
     /// Rigid blades have grown into the casing.
-    #[inline]
-    pub(super) fn follow_speed(&mut self) -> Result<(), FailureReason> {
-        if self.follows_speed() { self.follow_ramp() } else { Ok(()) }
-    }
-
     #[inline(never)]
-    fn follow_ramp(&mut self) -> Result<(), FailureReason> {
+    pub(super) fn follow_ramp(&mut self) -> Result<(), FailureReason> {
         self.ledger.sums.rotor_work_j += self.disk.stiffen(self.machine.stiffened_by());
         let (before, speed) = (self.tips.clearance, self.drive.speed(self.n + 1));
         let short = before - self.tips.least;

@@ -186,12 +186,12 @@ impl Disk {
         }
     }
 
-    /// Returns the angle of a row \[rad\].
+    /// Returns the angle of a row with these shapes of a pair of modes \[rad\].
     #[inline(always)]
-    pub fn angle(&self, row: usize) -> f64 {
+    pub fn angle(&self, row: usize, shape: [f64; 2]) -> f64 {
         if self.fixed.is_pair {
-            let ([c, s], x) = (self.shape_of(row), self.pair_angles());
-            return c * x[0] + s * x[1];
+            let x = self.pair_angles();
+            return shape[0] * x[0] + shape[1] * x[1];
         }
         let shapes = self.fixed.rows.row(row);
         total(dot(&shapes, self.modes.iter().map(|four| four.x)))
@@ -292,11 +292,6 @@ impl Disk {
         self.modes.first().map_or([0.0; 2], |four| [four.x[0], four.x[1]])
     }
 
-    pub(super) fn amplitude(&self) -> f64 {
-        let [c, s] = self.pair_angles();
-        (c * c + s * s).sqrt()
-    }
-
     /// Returns the largest blade angle caused by a unit torque in one step
     /// \[rad/(N m)\].
     #[inline]
@@ -317,13 +312,7 @@ impl Disk {
         if self.fixed.is_pair { &self.oscillators } else { &[] }
     }
 
-    /// Returns the coordinates of a pair; missing ones are zero.
-    pub fn coordinates_of_pair(&self) -> [Coordinate; 2] {
-        let known = |m| m < self.modes_of_pair().len();
-        [0, 1].map(|m| if known(m) { self.at(m) } else { Coordinate::default() })
-    }
-
-    /// Returns the coordinates of a pair after so many free steps.
+    /// Returns the coordinates of a pair after so many free steps; missing ones are zero.
     pub fn flown_pair(&self, steps: u64) -> [Coordinate; 2] {
         let modes = self.modes_of_pair();
         [0, 1].map(|m| {
@@ -363,10 +352,10 @@ impl Disk {
         (four.x[k], four.increment[k]) = (at.x, at.increment);
     }
 
-    /// Returns the shapes of the two modes at a row, for a pair.
-    #[inline(always)]
+    /// Returns the shapes of the two modes at a row, for a pair; else zero.
     pub fn shape_of(&self, row: usize) -> [f64; 2] {
-        self.fixed.rows.table().get(row).map_or([0.0; 2], |shape| [shape[0], shape[1]])
+        let shapes = self.fixed.rows.table().get(row).filter(|_| self.fixed.is_pair);
+        shapes.map_or([0.0; 2], |shape| [shape[0], shape[1]])
     }
 
     /// Returns the energy between the last two steps \[J\].

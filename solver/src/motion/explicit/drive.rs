@@ -85,12 +85,6 @@ impl Drive {
         self.lobe_phasor.at(n, &self.rotor, self.lobes, self.step)
     }
 
-    /// Returns whether the casing is out of round.
-    #[inline]
-    pub fn has_lobes(&self) -> bool {
-        self.lobes != 0.0
-    }
-
     /// Returns both rotations a few steps before step `n`, possibly before the start.
     pub fn turns_before(&self, n: u64, back: u64) -> (Plane, Plane) {
         let before = |phasor: &Phasor, order: f64| {
@@ -185,7 +179,7 @@ impl Phasor {
     }
 
     /// Returns the value at step `n`, and caches the value at the beginning of its block.
-    #[inline]
+    #[inline(always)]
     fn at(&mut self, n: u64, rotor: &Rotor, order: f64, step: f64) -> Plane {
         if !self.table.is_empty() && n / TABLE != self.block {
             self.block = n / TABLE;

@@ -8,13 +8,12 @@
 use super::Explicit;
 use super::disk::{Disk, total};
 use super::record::Record;
-use super::row::SERIES_PHASE;
-use super::row::SHORT_SERIES_PHASE;
-use super::row::{Tip, TipLaw, Tips, series, short_series};
+use super::row::{Tip, TipLaw, Tips};
 use super::shapes::Four;
 use crate::harmonic::Lining as RoundLining;
 use crate::model::{Frame, LiningLaw};
 use crate::motion::lasting::mark;
+use crate::motion::plane::{SERIES_PHASE, SHORT_SERIES_PHASE, series, short_series};
 use crate::motion::{ActiveSet, Plane, across};
 
 /// Part of the fastest rate below which a wave about rest neither grows nor decays: round-off.
@@ -86,12 +85,10 @@ impl Lining {
         }
         for (place, &row) in order.iter().enumerate() {
             let (four, k) = (&mut fours[place / 4], place % 4);
-            let Tip { normal, longer, .. } = tips.rows[row];
+            let Tip { normal, longer, shape, .. } = tips.rows[row];
             (four.cosine[k], four.sine[k]) = (normal.re, normal.im);
             (four.longer[k], four.blades[k]) = (longer, f64::from(per_row));
-            if disk.is_pair() {
-                [four.shape[0][k], four.shape[1][k]] = disk.shape_of(row);
-            }
+            [four.shape[0][k], four.shape[1][k]] = shape;
         }
         Self {
             law,
@@ -147,7 +144,7 @@ impl Lining {
     }
 
     /// Records that no row presses at step `n`.
-    fn release(&mut self, tips: &Tips, record: &mut Record, n: u64) {
+    pub fn release(&mut self, tips: &Tips, record: &mut Record, n: u64) {
         if !self.presses() {
             self.held_before = Some(0.0);
             return;
@@ -346,14 +343,6 @@ impl Explicit {
         true
     }
 
-    /// Records that no tip is near the lining.
-    #[inline]
-    pub(super) fn release_lining(&mut self) {
-        if let Some(lining) = &mut self.lining {
-            lining.release(&self.tips_of_rows, &mut self.record, self.n);
-        }
-    }
-
     /// Adds the work of the rotor and the heat of the pushes over the last two half steps.
     pub(super) fn count_lining(&mut self) {
         let Some(lining) = self.lining.as_ref().filter(|l| self.ledger.counts && l.presses())
@@ -374,7 +363,7 @@ impl Explicit {
         let rows = lining.rows(|four| four.depth).filter(|(_, depth)| *depth > 0.0);
         let bent: f64 = rows
             .map(|(row, depth)| {
-                let turned = self.disk.angle(row) - self.disk.angle_before(row);
+                let turned = self.angle(row) - self.disk.angle_before(row);
                 0.5 * each * lining.law.push(-depth) * turned
             })
             .sum();

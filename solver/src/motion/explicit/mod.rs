@@ -38,7 +38,6 @@ use drive::Drive;
 use lining::Lining;
 use oscillator::{Coordinate, Oscillator};
 use record::Record;
-pub(super) use row::turned;
 use row::{Row, TipLaw, Tips};
 use step::LONG_STEP;
 use strides::{Stride, Strides};
@@ -100,7 +99,7 @@ impl Explicit {
     pub(super) fn new(scene: &CheckedScene) -> Self {
         let machine = scene.machine();
         let mut disk = Disk::new(scene, &machine);
-        let tips_of_rows = Tips::new(&machine, disk.rows().0);
+        let tips_of_rows = Tips::new(&machine, &disk);
         let drive = Drive::of(scene, tips_of_rows.lobes);
         disk.begin_driven(drive.driven(0));
         let casing = Oscillator::of_casing(&machine, drive.step);
@@ -151,7 +150,7 @@ impl Explicit {
     /// lobes to that step.
     #[inline]
     fn turn_now(&mut self) -> Plane {
-        if self.drive.has_lobes() {
+        if self.tips_of_rows.lobes != 0.0 {
             self.lobe_turn = self.drive.lobe_turn(self.n);
         }
         self.drive.turn(self.n)
@@ -166,8 +165,13 @@ impl Explicit {
     /// Returns the row of a tip, for the casing at `z` and the blades as they are.
     #[inline(always)]
     fn row(&self, index: usize, z: Plane) -> Row {
-        let (shape, angle) = (self.disk.shape_of(index), self.disk.angle(index));
-        Row { shape, ..self.tips_of_rows.row(index, z, angle, self.lobe_turn, &self.tips) }
+        self.tips_of_rows.row(index, z, self.angle(index), self.lobe_turn, &self.tips)
+    }
+
+    /// Returns the angle of a row \[rad\].
+    #[inline(always)]
+    fn angle(&self, index: usize) -> f64 {
+        self.disk.angle(index, self.tips_of_rows.rows[index].shape)
     }
 
     /// Turns the friction of the tips at the latest step with the rotor.
@@ -212,7 +216,7 @@ impl Explicit {
         let [c, s] = self.moved();
         let moved = Plane::new(0.5 * c, 0.5 * s) * turn.conj();
         let along = across(normal, moved);
-        let turned = 0.5 * (self.disk.angle(row.index) - self.disk.angle_before(row.index));
+        let turned = 0.5 * (self.angle(row.index) - self.disk.angle_before(row.index));
         let (radius, bent) = (self.scene.casing.radius_m, self.machine.blade_length * turned);
         let sums = &mut self.ledger.sums;
         sums.rotor_work_j += push * tips.friction * radius * rotor;

@@ -11,19 +11,9 @@
 //! each, and a casing out of round has lobes `s = e cos(m (theta + Phi + alpha) - psi_e)`
 //! (docs/theory.md, sections 10 and 11).
 
+use super::disk::Disk;
 use crate::model::Machine;
-use crate::motion::{ActiveSet, Plane, across, dot};
-
-/// Blade phase below which sine and cosine are two terms of their series
-/// \[rad\]: exact to round-off.
-const SMALL_PHASE: f64 = 1e-4;
-
-/// Blade phase below which sine and cosine are two and three terms of their series \[rad\]: exact to
-/// the round-off of 1. Speed only.
-pub(super) const SHORT_SERIES_PHASE: f64 = 1.5e-3;
-
-/// Blade phase below which they are four terms of their series \[rad\]: exact to round-off.
-pub(super) const SERIES_PHASE: f64 = 0.03;
+use crate::motion::{ActiveSet, Plane, across, dot, turned};
 
 /// Geometry and friction of the tips at the current rotor speed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -109,6 +99,8 @@ pub(super) struct Tip {
     pub normal: Plane,
     /// `b` \[m\].
     pub longer: f64,
+    /// Shapes of a pair of modes at its blades; zero for other disks.
+    pub shape: [f64; 2],
 }
 
 /// Directions of the rows, and how their tips differ.
@@ -126,13 +118,14 @@ pub(super) struct Tips {
 }
 
 impl Tips {
-    /// Creates the tips of so many rows, a row being the blades `row`, `row + count`, ...
-    pub fn new(machine: &Machine, count: usize) -> Self {
-        let polygon = &machine.polygon;
+    /// Creates the tips of the rows of a disk.
+    pub fn new(machine: &Machine, disk: &Disk) -> Self {
+        let (polygon, (count, _)) = (&machine.polygon, disk.rows());
         let tip = |row: u32| {
             let side = polygon.side_of_blade(row + 1);
             let (c, s) = polygon.direction(side);
-            Tip { side, normal: Plane::new(c, s), longer: machine.longer(row) }
+            let (longer, shape) = (machine.longer(row), disk.shape_of(row as usize));
+            Tip { side, normal: Plane::new(c, s), longer, shape }
         };
         let rows: Vec<Tip> = (0..count as u32).map(tip).collect();
         let uneven = machine.tips.as_deref();
@@ -214,58 +207,29 @@ impl Tips {
     /// Returns the row of a tip, for the casing at `z` and its blades at this angle.
     #[inline(always)]
     pub fn row(&self, index: usize, z: Plane, angle: f64, lobe_turn: Plane, tips: &TipLaw) -> Row {
-        let Tip { side, normal, longer } = self.rows[index];
+        let Tip { side, normal, longer, shape } = self.rows[index];
         let normal = turned(normal, tips.diameters * angle);
-        let [shape, steep] = self.shape(index, angle, lobe_turn);
-        let gap = tips.clearance - longer + shape - tips.rise * angle + dot(normal, z);
+        let [lobe, steep] = self.shape(index, angle, lobe_turn);
+        let gap = tips.clearance - longer + lobe - tips.rise * angle + dot(normal, z);
         let arm = tips.diameters * across(normal, z) + steep;
-        Row { index, side, normal, gap, arm, apart: gap, lambda: 0.0, shape: [0.0; 2] }
+        Row { index, side, normal, gap, arm, apart: gap, lambda: 0.0, shape }
     }
-}
-
-/// Returns a direction turned by a small blade phase, exact to round-off.
-#[inline(always)]
-pub(in crate::motion) fn turned(direction: Plane, phase: f64) -> Plane {
-    let q = phase * phase;
-    let (sin, cos) = if phase.abs() < SMALL_PHASE {
-        (phase * (1.0 - q * (1.0 / 6.0)), 1.0 - 0.5 * q)
-    } else if phase.abs() < SERIES_PHASE {
-        series(phase)
-    } else {
-        phase.sin_cos()
-    };
-    Plane::new(direction.re * cos - direction.im * sin, direction.im * cos + direction.re * sin)
-}
-
-/// Returns sine and cosine of a phase below `SERIES_PHASE`.
-#[inline(always)]
-pub(super) fn series(phase: f64) -> (f64, f64) {
-    let q = phase * phase;
-    let sin = q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0)));
-    let cos =
-        q * 0.5 * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0))));
-    (phase - phase * sin, 1.0 - cos)
-}
-
-/// Returns sine and cosine of a phase below `SHORT_SERIES_PHASE`.
-#[inline(always)]
-pub(super) fn short_series(phase: f64) -> (f64, f64) {
-    let q = phase * phase;
-    (phase - (phase * (1.0 / 6.0)) * q, (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::scene::{ModelSize, Scene};
 
     #[test]
     fn a_row_has_the_derivatives_of_its_gap() {
         let mut scene = Scene::base();
         (scene.bladed_disk.radial_coupling, scene.contact.friction) = (0.3, 0.15);
         (scene.casing.lobes, scene.casing.out_of_round_m) = (4, 2e-5);
+        scene.solver.model = ModelSize::Full;
         let machine = scene.machine();
-        let (law, tips) = (TipLaw::at(&machine, 500.0), Tips::new(&machine, 22));
+        let tips = Tips::new(&machine, &Disk::new(&scene, &machine));
+        let law = TipLaw::at(&machine, 500.0);
         let (z, turn, step) = (Plane::new(-1.3e-4, 0.4e-4), Plane::cis(0.7), 1e-7);
         for angle in [0.0, 5e-5, 1e-3, -0.02, 0.05] {
             let row = tips.row(7, z, angle, turn, &law);

@@ -1,7 +1,7 @@
 //! The common solver interface of the explicit solver: advance, observe, change.
 
-use super::{Coordinate, Disk, Explicit};
-use crate::model::Machine;
+use super::Explicit;
+use crate::model::{LARGEST_BLADE_ANGLE, Machine};
 use crate::motion::{
     ActiveSet, Checks, ContactLog, EnergyAccount, Failure, GoOn, Pulse, Rotor, Solver, State,
     Verdict,
@@ -13,24 +13,6 @@ use crate::scene::STEP_ROUND_OFF;
 const UPDATES_UNASKED: usize = 4096;
 
 impl Explicit {
-    /// Returns casing and blades one step on from the latest, before rigid contact corrects them.
-    fn ahead(&self) -> ([Coordinate; 2], Disk) {
-        let (force, push, mut disk) =
-            (self.drive.force(self.n), self.lining_push(), self.disk.clone());
-        disk.predict(self.drive.driven(self.n));
-        let [c, s] = self.u;
-        ([self.casing.step(c, force + push.re), self.casing.step(s, push.im)], disk)
-    }
-
-    fn take_one(&mut self) -> Result<(), Failure> {
-        self.take_step().map_err(|reason| {
-            let failure = Failure { t_s: self.drive.time_of(self.n), reason };
-            self.record.end_contact(self.n);
-            self.failure = Some(failure.clone());
-            failure
-        })
-    }
-
     /// Advances to `until` or, unless it `looks` into the stride that contains `until`, to the start
     /// of that stride.
     fn go_to(&mut self, until: f64, looks: bool, go_on: GoOn<'_>) -> Result<bool, Failure> {
@@ -64,18 +46,22 @@ impl Explicit {
             let found = || if self.scene.solver.plain { None } else { self.find_stride() };
             match begun.take().or_else(found) {
                 Some(stride) if self.n + stride.steps < target => {
-                    self.take_stride(&stride, stride.steps);
+                    self.take_stride(&stride, stride.steps, false);
                 }
                 Some(stride) if looks => {
                     let began = Box::new(self.clone());
-                    self.see_stride(&stride, target - self.n);
+                    self.take_stride(&stride, target - self.n, true);
                     self.stride = Some((stride, Some(began)));
                 }
                 Some(stride) => {
                     self.stride = Some((stride, None));
                     break;
                 }
-                None => self.take_one()?,
+                None => self.take_step().map_err(|reason| {
+                    self.record.end_contact(self.n);
+                    let t_s = self.drive.time_of(self.n);
+                    self.failure.insert(Failure { t_s, reason }).clone()
+                })?,
             }
         }
         Ok(true)
@@ -98,8 +84,11 @@ impl Solver for Explicit {
     fn state(&self) -> State {
         // The mean rate of the steps before and after; the casing of rigid contact has only that
         // of the step before.
-        let (ahead, disk_ahead) = self.ahead();
-        let step = self.drive.step;
+        let (force, push, step) = (self.drive.force(self.n), self.lining_push(), self.drive.step);
+        let [c, s] = self.u;
+        let ahead = [self.casing.step(c, force + push.re), self.casing.step(s, push.im)];
+        let mut disk_ahead = self.disk.clone();
+        disk_ahead.predict(self.drive.driven(self.n));
         let held = self.lining.is_none() && self.record.log.active_set != ActiveSet::Nothing;
         let rate = |k: usize| {
             let last = self.u[k].increment;
@@ -206,7 +195,8 @@ impl Solver for Explicit {
             began.forgo_checks();
         }
         self.ledger.counts = false;
-        self.disk.forgo_largest();
+        // From now on only angles beyond the limit of the model are recorded.
+        self.disk.largest = self.disk.largest.max(LARGEST_BLADE_ANGLE);
     }
 
     fn fire(&mut self) {

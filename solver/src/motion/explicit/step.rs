@@ -17,7 +17,7 @@ use super::angles::ANGLE_LOOK;
 use super::row::{Row, Tip};
 use crate::motion::failure::MOST_ROWS;
 use crate::motion::lasting::mark;
-use crate::motion::{ActiveSet, FailureReason, Plane, dot};
+use crate::motion::{ActiveSet, FailureReason, Plane, across, dot};
 use crate::numeric::lcp;
 
 /// Gaps up to this multiple of the deepest penetration are included, as a push may close them: with
@@ -40,6 +40,8 @@ const SIDES_TOGETHER: f64 = -0.5;
 
 /// What is known of the tips around the casing.
 struct Near {
+    /// Tips that are less than this from their targets are rows \[m\].
+    reach: f64,
     /// How far the deepest is beyond its target \[m\].
     deepest: f64,
     /// Bound on how far all tips without a row are from their targets \[m\].
@@ -56,7 +58,9 @@ impl Explicit {
     /// Takes one step.
     pub(super) fn take_step(&mut self) -> Result<(), FailureReason> {
         let force = self.drive.force(self.n);
-        self.follow_speed()?;
+        if self.follows_speed() {
+            self.follow_ramp()?;
+        }
         self.predict(force);
         let met = self.touch();
         // Growth is what a failure is called, whatever it does to the contact.
@@ -93,7 +97,9 @@ impl Explicit {
         let risen = if rise == 0.0 { 0.0 } else { rise * self.disk.bound() };
         let room = self.tips.least - risen - self.highest_target();
         if room > 0.0 && distance2 < room * room {
-            self.release_lining();
+            if let Some(lining) = &mut self.lining {
+                lining.release(&self.tips_of_rows, &mut self.record, self.n);
+            }
             self.leave();
             return Ok(());
         }
@@ -120,11 +126,8 @@ impl Explicit {
         if near.deepest > self.tips.clearance {
             return Err(self.too_deep(near.deepest, z));
         }
-        // Equalities are those of the tips that penetrate. Where contact only pushes, a push may
-        // close another gap, by as much as is asked of it.
-        let reach = NEIGHBOUR_DEPTHS * near.deepest;
-        if !self.law.pulls() && near.next < reach {
-            near = self.gather(z, reach);
+        if near.next < near.reach {
+            near = self.gather(z, near.reach);
         }
         self.find_multipliers()?;
         self.correct(z, turn, near.dip);
@@ -144,22 +147,24 @@ impl Explicit {
     }
 
     /// Step 2: makes rows of the tips that are less than `reach` from their targets, Eq. (14).
+    /// Equalities are those of the tips that penetrate. Where contact only pushes, a push may close
+    /// another gap, by as much as is asked of it: the reach grows with the deepest penetration.
     fn gather(&mut self, z: Plane, reach: f64) -> Near {
         self.rows.clear();
-        let mut near = Near { deepest: 0.0, next: f64::INFINITY, dip: 0.0 };
+        let mut near = Near { reach, deepest: 0.0, next: f64::INFINITY, dip: 0.0 };
         // A blade angle turns a gap by at most |z| n_d alpha, beside its slope.
         let look = self.tips.diameters * self.disk.bound() * (z.re.abs() + z.im.abs());
         let least = self.tips.clearance - look - self.highest_target();
         if !self.tips_of_rows.sides.is_empty() && (self.tips.rise == 0.0 || self.disk.is_pair()) {
-            self.gather_around(z, reach, least, &mut near);
+            self.gather_around(z, least, &mut near);
             return near;
         }
         for row in 0..self.tips_of_rows.rows.len() {
             let Tip { normal, longer, .. } = self.tips_of_rows.rows[row];
             let tip = least - longer - self.tips_of_rows.out_of_round;
             let apart = tip + dot(normal, z) - self.highest_rise(row);
-            if apart < reach {
-                self.add_row(row, z, reach, &mut near);
+            if apart < near.reach {
+                self.add_row(row, z, &mut near);
             } else {
                 near.next = near.next.min(apart);
             }
@@ -171,34 +176,49 @@ impl Explicit {
     /// `w = z - kappa l_b (alpha_c + i alpha_s)`, the gap has one minimum, from which on rows are made
     /// to both sides.
     #[inline(always)]
-    fn gather_around(&mut self, z: Plane, reach: f64, least: f64, near: &mut Near) {
-        let [c, s] = if self.tips.rise == 0.0 { [0.0; 2] } else { self.disk.modal() };
+    fn gather_around(&mut self, z: Plane, least: f64, near: &mut Near) {
+        let [c, s] = self.disk.pair_angles();
         let w = z - Plane::new(c, s) * self.tips.rise;
         let (nearest, [below, open, above]) = self.tips_of_rows.nearest(self.near, w);
         self.near = nearest;
-        if least + open >= reach {
+        if least + open >= near.reach {
             near.next = least + open;
             return;
         }
-        self.add_row(self.tips_of_rows.row_of(nearest), z, reach, near);
-        if least + below.min(above) >= reach {
+        self.add_row(self.tips_of_rows.row_of(nearest), z, near);
+        if least + below.min(above) >= near.reach {
             near.next = near.next.min(least + below.min(above));
             return;
         }
-        let sides = self.tips_of_rows.sides();
+        let (sides, target) = (self.tips_of_rows.sides(), self.highest_target());
         let mut left = sides - 1;
         for way in [1, sides - 1] {
             let mut side = (nearest + way) % sides;
             while left > 0 {
                 let apart = least + self.tips_of_rows.open(side, w);
-                if apart >= reach {
+                if apart >= near.reach {
                     near.next = near.next.min(apart);
                     break;
                 }
-                self.add_row(self.tips_of_rows.row_of(side), z, reach, near);
+                let row = self.tips_of_rows.row_of(side);
+                let apart = self.least_gap(row, z) - target;
+                if apart < near.reach {
+                    self.add_row(row, z, near);
+                } else {
+                    near.next = near.next.min(apart);
+                }
                 (side, left) = ((side + way) % sides, left - 1);
             }
         }
+    }
+
+    /// Returns a bound on the gap of a row of a round casing, without the sine of its phase \[m\].
+    #[inline(always)]
+    fn least_gap(&self, row: usize, z: Plane) -> f64 {
+        let (normal, angle) = (self.tips_of_rows.rows[row].normal, self.angle(row));
+        let (x, y, phase) = (dot(normal, z), across(normal, z), self.tips.diameters * angle);
+        let curved = phase * phase * (0.5 * x.abs() + (y * phase).abs() / 6.0);
+        self.tips.clearance - self.tips.rise * angle + x + phase * y - curved
     }
 
     /// Returns a bound on the outward displacement of a row's tips by the blade angles \[m\].
@@ -208,22 +228,25 @@ impl Explicit {
             return 0.0;
         }
         if self.disk.is_pair() {
-            return rise * self.disk.angle(row);
+            return rise * self.angle(row);
         }
         let slack = TIP_SLACK * (self.tips.clearance / rise).abs();
         let (angles, slack) = self.disk.angles_within(slack);
         rise * angles[row] + rise.abs() * slack
     }
 
-    /// Makes a row of a tip, if it is less than `reach` from its target.
+    /// Makes a row of a tip, if it is less than the reach from its target.
     #[inline(always)]
-    fn add_row(&mut self, index: usize, z: Plane, reach: f64, near: &mut Near) {
+    fn add_row(&mut self, index: usize, z: Plane, near: &mut Near) {
         let mut row = self.row(index, z);
         if self.restitution != 0.0 {
             row.apart += self.restitution * self.gap_before(&row);
         }
         near.deepest = near.deepest.max(-row.apart);
-        if row.apart >= reach {
+        if !self.law.pulls() {
+            near.reach = near.reach.max(NEIGHBOUR_DEPTHS * near.deepest);
+        }
+        if row.apart >= near.reach {
             (near.next, near.dip) = (near.next.min(row.apart), near.dip.max(-row.gap));
             return;
         }
@@ -277,8 +300,12 @@ impl Explicit {
             }
         }
         // A single row that moves away from its own push has no answer either.
-        let good = |row: &Row| row.lambda.is_finite() && (law.pulls() || row.lambda <= 0.0);
-        if rows.iter().all(good) { Ok(()) } else { Err(FailureReason::Singular { rows: count }) }
+        let most = if law.pulls() { f64::MAX } else { 0.0 };
+        if rows.iter().all(|row| (f64::MIN..=most).contains(&row.lambda)) {
+            Ok(())
+        } else {
+            Err(FailureReason::Singular { rows: count })
+        }
     }
 
     /// Step 4: corrects casing and blades by the multipliers, Eq. (13b), and records impulses,

@@ -37,6 +37,7 @@ use std::sync::OnceLock;
 use nalgebra::{Matrix2, SMatrix, SVector, Vector2};
 
 use super::oscillator::{Coordinate, Oscillator};
+use super::row::Row;
 use super::step::NEIGHBOUR_DEPTHS;
 use crate::motion::{Plane, dot};
 
@@ -58,41 +59,18 @@ pub(super) type State = SVector<f64, SIZE>;
 /// A state after some steps, and the sums of the pushes \[N\] until then.
 pub(super) type Taken = (State, [f64; HELD]);
 type Square = SMatrix<f64, SIZE, SIZE>;
-type Whole = SVector<f64, WHOLE>;
+pub(super) type Whole = SVector<f64, WHOLE>;
 type Change = SMatrix<f64, WHOLE, WHOLE>;
 /// A function of each held tip, linear in the state.
 type OfTips = SMatrix<f64, HELD, SIZE>;
 
-/// A held tip in the blade frame.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct HeldTip {
-    /// \[m\]
-    pub gap: f64,
-    /// Derivative of the gap by the casing, and the direction of a push.
-    pub normal: Plane,
-    /// Derivative of the gap by the blade angle \[m\], and the shapes of the two modes.
-    pub arm: f64,
-    pub shape: [f64; 2],
-}
-
-impl HeldTip {
-    /// Returns whether two tips are equal within round-off.
-    fn is_near(&self, other: &Self) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() < 1e-13;
-        (self.gap - other.gap).abs() <= 1e-14 * self.gap.abs()
-            && near(self.normal.re, other.normal.re)
-            && near(self.normal.im, other.normal.im)
-            && self.shape == other.shape
-    }
-}
-
-/// A stride that a map allows from some state.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Safe {
-    pub steps: u64,
-    /// Bound on how far a blade angle between both ends lies from the straight line between its
-    /// values there \[rad\].
-    pub sag: f64,
+/// Returns whether two tips at rest are equal within round-off.
+fn are_near(a: &Row, b: &Row) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-13;
+    (a.gap - b.gap).abs() <= 1e-14 * a.gap.abs()
+        && near(a.normal.re, b.normal.re)
+        && near(a.normal.im, b.normal.im)
+        && a.shape == b.shape
 }
 
 /// A function of the state that must keep its sign over a stride.
@@ -108,7 +86,7 @@ struct Sign {
 #[derive(Debug)]
 pub(super) struct StrideMap {
     /// The held tips, the casing and the blades at rest.
-    tips: Vec<HeldTip>,
+    tips: Vec<Row>,
     /// State from which deviations are counted.
     reference: State,
     /// `A^(2^j) - 1`, with `A` the map of the whole state, once asked for.
@@ -137,14 +115,13 @@ impl StrideMap {
         casing: &Oscillator,
         modes: &[Oscillator],
         (turn, diameters): (f64, f64),
-        tips: Vec<HeldTip>,
+        at_rest: Vec<Row>,
         reference: State,
-        ahead: impl Fn(usize, &State) -> HeldTip,
+        ahead: impl Fn(usize, &State) -> Row,
     ) -> Option<Self> {
         let predict = change_of_prediction(casing, modes, turn);
         let predicted = reference + predict * reference;
-        let at_rest = tips;
-        let tips: Vec<HeldTip> = (0..at_rest.len()).map(|tip| ahead(tip, &predicted)).collect();
+        let tips: Vec<Row> = (0..at_rest.len()).map(|tip| ahead(tip, &predicted)).collect();
 
         // Gaps of the held tips, Eq. (9), and what their pushes move, Eq. (13).
         let mut gaps = OfTips::zeros();
@@ -221,9 +198,9 @@ impl StrideMap {
     }
 
     /// Returns whether it is the map of these tips for states near this one.
-    pub fn serves(&self, tips: &[HeldTip], state: &State) -> bool {
+    pub fn serves(&self, tips: &[Row], state: &State) -> bool {
         self.tips.len() == tips.len()
-            && self.tips.iter().zip(tips).all(|(own, tip)| own.is_near(tip))
+            && self.tips.iter().zip(tips).all(|(own, tip)| are_near(own, tip))
             && 2.0 * self.turned(&(state - self.reference)) < SMALL_TURN
     }
 
@@ -233,7 +210,9 @@ impl StrideMap {
         self.diameters * (deviation[4].abs() + deviation[5].abs())
     }
 
-    /// Returns the longest safe stride of at most so many steps; none where it is not worth it.
+    /// Returns the longest safe stride of at most so many steps, with a bound on how far a blade angle
+    /// between both ends lies from the straight line between its values there \[rad\]; none where it
+    /// is not worth it.
     /// `open` is the least gap of all tips that are not held and not turned, for a place of the
     /// casing \[m\]; `turned` bounds the phase `n_d alpha` that blades turn them \[rad\].
     /// Held tips must penetrate at each prediction, and push, or pull where they may.
@@ -244,7 +223,7 @@ impl StrideMap {
         turned: f64,
         most: u64,
         open: impl Fn(Plane) -> f64,
-    ) -> Option<Safe> {
+    ) -> Option<(u64, f64)> {
         let from = self.whole(state);
         let change = (self.change(0) * from).fixed_rows::<SIZE>(0).into_owned();
         let speed = (self.units * change).norm();
@@ -262,7 +241,7 @@ impl StrideMap {
             let deviation = whole.fixed_rows::<SIZE>(0).into_owned();
             let place = self.place * (deviation + self.reference);
             let nearer = turned * (place.x.abs() + place.y.abs());
-            let closed = NEIGHBOUR_DEPTHS * self.deepest_of(whole);
+            let closed = NEIGHBOUR_DEPTHS * self.deepest(whole);
             let gap = open(Plane::new(place.x, place.y)) - nearer - closed;
             let part = |value: f64, bend: f64| if value > 0.0 { value / bend } else { 0.0 };
             let turn = SMALL_TURN - self.turned(&deviation);
@@ -277,7 +256,7 @@ impl StrideMap {
             let (steps, off) = (1_u64 << exponent, speed * self.limits[exponent]);
             let may = steps <= most && off < at_start;
             let is_safe = may && off < room(&moved(self.change(exponent), &from));
-            is_safe.then_some(Safe { steps, sag: self.angle_bend * off })
+            is_safe.then_some((steps, self.angle_bend * off))
         };
         (SHORTEST..=LONGEST).rev().find_map(stride)
     }
@@ -301,11 +280,7 @@ impl StrideMap {
     }
 
     /// Returns the deepest predicted penetration of the held tips in the step from a state \[m\].
-    pub fn deepest(&self, state: &State) -> f64 {
-        self.deepest_of(&self.whole(state))
-    }
-
-    fn deepest_of(&self, whole: &Whole) -> f64 {
+    pub fn deepest(&self, whole: &Whole) -> f64 {
         self.depths.iter().fold(0.0, |most, depth| f64::max(most, depth.by.dot(whole)))
     }
 
@@ -327,7 +302,7 @@ impl StrideMap {
     }
 
     /// The deviation of a state from the reference, and the constant 1.
-    fn whole(&self, state: &State) -> Whole {
+    pub fn whole(&self, state: &State) -> Whole {
         let mut whole = Whole::zeros();
         whole.fixed_rows_mut::<SIZE>(0).copy_from(&(state - self.reference));
         whole[SIZE] = 1.0;
@@ -377,7 +352,7 @@ fn turn_of_tips(
     casing: &Oscillator,
     modes: &[Oscillator],
     diameters: f64,
-    tips: &[HeldTip],
+    tips: &[Row],
     pushes: [f64; HELD],
     z: Plane,
 ) -> (OfTips, Square) {

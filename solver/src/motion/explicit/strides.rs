@@ -14,7 +14,7 @@ use super::Explicit;
 use super::angles::ANGLE_LOOK;
 use super::oscillator::{Coordinate, Oscillator};
 use super::row::Row;
-use super::stride_map::{HELD, HeldTip, SHORTEST, State, StrideMap, Taken, modes_of};
+use super::stride_map::{HELD, SHORTEST, State, StrideMap, Taken, modes_of};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::{ActiveSet, Plane, across};
 
@@ -92,26 +92,12 @@ impl Explicit {
         stride
     }
 
-    /// Takes so many steps of a stride, at least one.
-    pub(super) fn take_stride(&mut self, stride: &Stride, steps: u64) {
-        self.pass(stride, steps, stride.holds.then(|| stride.map.take(&stride.state, steps)));
-    }
-
-    /// Takes so many steps of a stride, at least one, and has the pushes of the last of them. What the
-    /// map leaves of the gaps would be a false push in a step from here.
-    pub(super) fn see_stride(&mut self, stride: &Stride, steps: u64) {
-        if stride.holds {
-            let (held, pushes) = stride.map.see(&stride.state, steps);
-            self.pass(stride, steps, Some(held));
-            // A multiplier is the negative push.
-            self.rows.iter_mut().zip(pushes).for_each(|(row, push)| row.lambda = -push);
-        } else {
-            self.pass(stride, steps, None);
-        }
-    }
-
-    /// Goes so many steps along a stride, to `held` where tips are held.
-    fn pass(&mut self, stride: &Stride, steps: u64, held: Option<Taken>) {
+    /// Takes so many steps of a stride, at least one. Who `sees` has the pushes of the last of them:
+    /// what the map leaves of the gaps would be a false push in a step from here.
+    pub(super) fn take_stride(&mut self, stride: &Stride, steps: u64, sees: bool) {
+        let seen = (stride.holds && sees).then(|| stride.map.see(&stride.state, steps));
+        let taken = || stride.holds.then(|| stride.map.take(&stride.state, steps));
+        let held = seen.map(|(held, _)| held).or_else(taken);
         if stride.sag > 0.0 {
             let end = held.map_or_else(|| self.disk.flown_pair(steps), |(at, _)| modes_of(&at));
             let [low, high] =
@@ -121,6 +107,10 @@ impl Explicit {
         match held {
             Some(held) => self.hold(stride, steps, held),
             None => self.fly(steps),
+        }
+        if let Some((_, pushes)) = seen {
+            // A multiplier is the negative push.
+            self.rows.iter_mut().zip(pushes).for_each(|(row, push)| row.lambda = -push);
         }
         self.skipped += steps;
         self.disk.watch();
@@ -168,11 +158,12 @@ impl Explicit {
         let (tips, law) = (&self.tips_of_rows, &self.tips);
         let margin = law.rise.abs() * reach + tips.out_of_round;
         // No extreme of a tip swing may lie inside the stride.
-        let most = if law.rise == 0.0 { u64::MAX } else { self.steps_of_small_turn() };
+        let steps = (ANGLE_LOOK / self.disk.fastest_turn()).max(1.0);
+        let most = if law.rise == 0.0 { u64::MAX } else { 1 << (steps.min(2e9) as u64).ilog2() };
         let safe = map.longest(&state, false, law.diameters * reach, most, |place| {
             tips.least_gap(place, law, ActiveSet::Nothing) - margin
         })?;
-        let (steps, length) = (safe.steps, safe.steps as f64);
+        let ((steps, _), length) = (safe, safe.0 as f64);
         let mode = self.disk.modes_of_pair().first().filter(|_| may_pass);
         let sag = 0.125 * length * length * mode.map_or(0.0, |mode| mode.bend(reach));
         Some(Stride { steps, map, first, state, holds: false, sag })
@@ -193,16 +184,10 @@ impl Explicit {
         let first = self.tips_of_rows.rows[self.rows.first()?.index].normal;
         let state = self.casing_and_pair(first);
         let map = self.map_of(true, state, first)?;
-        let safe = map.longest(&state, self.law.pulls(), turned, u64::MAX, |place| {
+        let (steps, sag) = map.longest(&state, self.law.pulls(), turned, u64::MAX, |place| {
             self.tips_of_rows.least_gap(place * first, &self.tips, sides)
         })?;
-        Some(Stride { steps: safe.steps, map, first, state, holds: true, sag: safe.sag })
-    }
-
-    /// Returns the steps, as a power of two, in which the fastest mode turns by little.
-    fn steps_of_small_turn(&self) -> u64 {
-        let steps = ANGLE_LOOK / self.disk.fastest_turn();
-        if steps < 2e9 { 1 << (steps.max(1.0) as u64).ilog2() } else { u64::MAX }
+        Some(Stride { steps, map, first, state, holds: true, sag })
     }
 
     fn fly(&mut self, steps: u64) {
@@ -240,8 +225,10 @@ impl Explicit {
             self.record.log.tensile_steps += steps - 1;
         }
         self.record.touch(self.n, self.record.log.active_set, pulls);
-        let deepest = stride.map.deepest(&stride.state).max(stride.map.deepest(&at));
-        self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
+        for state in [&stride.state, &at] {
+            let deepest = stride.map.deepest(&stride.map.whole(state));
+            self.record.deepest_predicted = self.record.deepest_predicted.max(deepest);
+        }
         self.look_at_swing();
     }
 
@@ -264,7 +251,7 @@ impl Explicit {
         let [c, s] = self.u;
         let back = (self.drive.turn(self.n) * first).conj();
         let (z, w) = (Plane::new(c.x, s.x) * back, Plane::new(c.increment, s.increment) * back);
-        let [a, b] = self.disk.coordinates_of_pair();
+        let [a, b] = self.disk.flown_pair(0);
         State::from([z.re, z.im, w.re, w.im, a.x, b.x, a.increment, b.increment])
     }
 
@@ -272,12 +259,14 @@ impl Explicit {
     /// a known one, or a new one.
     fn map_of(&mut self, holds: bool, state: State, first: Plane) -> Option<Arc<StrideMap>> {
         let held = if holds { &self.rows[..] } else { &[] };
-        let at_rest = |row: &Row| {
-            let tip = self.tips_of_rows.rows[row.index];
-            let (gap, normal) = (self.tips.clearance - tip.longer, tip.normal * first.conj());
-            HeldTip { gap, normal, arm: 0.0, shape: self.disk.shape_of(row.index) }
+        let tip = |place: usize, at: &State| {
+            let Row { index, shape, .. } = held[place];
+            let [a, b] = modes_of(at);
+            let (z, angle) = (Plane::new(at[0], at[1]) * first, shape[0] * a.x + shape[1] * b.x);
+            let row = self.tips_of_rows.row(index, z, angle, self.lobe_turn, &self.tips);
+            Row { normal: row.normal * first.conj(), ..row }
         };
-        let tips: Vec<HeldTip> = held.iter().map(at_rest).collect();
+        let tips: Vec<Row> = (0..held.len()).map(|place| tip(place, &State::zeros())).collect();
         if let Some(map) = self.strides.maps.iter().find(|map| map.serves(&tips, &state)) {
             return Some(map.clone());
         }
@@ -288,15 +277,9 @@ impl Explicit {
             }
             self.strides.next_map = self.n + STEPS_OF_MAP;
         }
-        let ahead = |tip: usize, at: &State| {
-            let (index, shape) = (held[tip].index, tips[tip].shape);
-            let [a, b] = modes_of(at);
-            let (z, angle) = (Plane::new(at[0], at[1]) * first, shape[0] * a.x + shape[1] * b.x);
-            let row = self.tips_of_rows.row(index, z, angle, self.lobe_turn, &self.tips);
-            HeldTip { gap: row.gap, normal: row.normal * first.conj(), arm: row.arm, shape }
-        };
-        let frame = (self.frame_turn(), self.tips.diameters);
-        let map = StrideMap::new(&self.casing, modes, frame, tips.clone(), state, ahead)?;
+        let turn = self.machine.nu(self.drive.speed(self.n)) * self.drive.step;
+        let frame = (turn, self.tips.diameters);
+        let map = StrideMap::new(&self.casing, modes, frame, tips, state, tip)?;
         let map = Arc::new(map);
         let known = Arc::make_mut(&mut self.strides.maps);
         if known.len() >= MOST_MAPS {
@@ -304,10 +287,5 @@ impl Explicit {
         }
         known.push(map.clone());
         Some(map)
-    }
-
-    /// Rotation of the blade frame in a step \[rad\].
-    fn frame_turn(&self) -> f64 {
-        self.machine.nu(self.drive.speed(self.n)) * self.drive.step
     }
 }
