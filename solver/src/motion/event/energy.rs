@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::Events;
 use super::flight::amplitude;
-use super::flow::{Blades, Face, Flow};
+use super::flow::{Blades, Flow};
 use super::stretch::{Held, Stretch};
 use crate::model::LARGEST_BLADE_ANGLE;
 use crate::motion::point::Point;
@@ -24,28 +24,36 @@ impl EnergyAccount {
     pub(super) fn book(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64) {
         if held.rows.is_empty() && !stretch.is_pulsed() {
             // In free motion damping takes what is gone.
-            let [casing, blades] = flow.energies(stretch.from(), 0.0);
+            let [casing, blades] = flow.energies(&stretch.from, 0.0);
             let [casing_left, blades_left] = flow.energies(&stretch.point(flow, s), s);
             self.casing_loss_j += casing - casing_left;
             self.blade_loss_j += blades - blades_left;
             return;
         }
         if stretch.length == f64::INFINITY {
-            self.add(flow, held, stretch, 0.0, s);
+            self.add(flow, held, stretch, &stretch.from, [0.0, s]);
             return;
         }
         let half = 0.5 * s;
-        for (node, weight) in GAUSS_6 {
-            for signed in [-node, node] {
-                self.add(flow, held, stretch, half + half * signed, half * weight);
-            }
+        let [a, b, c] = GAUSS_6;
+        let nodes = [(-a.0, a.1), a, (-b.0, b.1), b, (-c.0, c.1), c];
+        let times = nodes.map(|(node, _)| half + half * node);
+        let points = stretch.points(flow, times);
+        for ((point, s), (_, weight)) in points.iter().zip(times).zip(nodes) {
+            self.add(flow, held, stretch, point, [s, half * weight]);
         }
     }
 
-    /// Adds the powers at one instant, multiplied by `time` seconds.
-    fn add(&mut self, flow: &Flow, held: &Held, stretch: &Stretch, s: f64, time: f64) {
-        let point = stretch.point(flow, s);
-        let v = flow.carried(&point, s);
+    /// Adds the powers at the point of one instant, multiplied by `time` seconds.
+    fn add(
+        &mut self,
+        flow: &Flow,
+        held: &Held,
+        stretch: &Stretch,
+        point: &Point,
+        [s, time]: [f64; 2],
+    ) {
+        let v = flow.carried(point, s);
         let time_mass = time * flow.machine.casing_mass;
         if stretch.is_pulsed() {
             self.pulse_work_j += time_mass * dot(stretch.force_at(s), v);
@@ -56,35 +64,38 @@ impl EnergyAccount {
         }
         if !held.rows.is_empty() {
             let pushes = stretch.pushes_at(held, s);
-            let each = pushes.map(|(row, push)| (flow.face(row, &point), push * time));
-            self.push(flow, &point, s, each);
+            let each = pushes.map(|(row, push)| (flow.normal(row, point.a), push * time));
+            self.push(flow, point, s, each);
         }
     }
 
-    /// Adds the work of impulses at a point `s` seconds after the start of the stretch; its rates
-    /// are the mean of those before and after.
+    /// Adds the work of impulses, each with direction and normal of its row, at a point `s` seconds
+    /// after the start of the stretch; its rates are the mean of those before and after.
     pub(super) fn push(
         &mut self,
         flow: &Flow,
         point: &Point,
         s: f64,
-        impulses: impl Iterator<Item = (Face, f64)>,
+        impulses: impl Iterator<Item = ((Plane, Plane), f64)>,
     ) {
         let (mut sum, mut along, mut bases) = (0.0, Plane::default(), Plane::default());
-        for (face, impulse) in impulses {
+        for ((base, normal), impulse) in impulses {
             sum += impulse;
-            along += face.normal * impulse;
-            bases += face.base * impulse;
+            along += normal * impulse;
+            bases += base * impulse;
         }
-        let nu = flow.nu_at(s);
+        let (nu, mass) = (flow.nu_at(s), flow.machine.casing_mass);
         // The sides move with the rotor, so the slope of the wave does work on the casing.
         let slope = dot(along, Plane::i() * point.z * nu);
+        self.rotor_work_j += mass * slope;
+        if flow.friction == 0.0 {
+            return;
+        }
         let sliding = flow.friction * flow.speed * flow.radius * sum;
         let on_casing = dot(Plane::i() * along * flow.turn.im, flow.carried(point, s));
         let length = flow.machine.blade_length;
         let on_blades = flow.blades.map_or(0.0, |_| -flow.friction * length * dot(bases, point.da));
-        let mass = flow.machine.casing_mass;
-        self.rotor_work_j += mass * (slope + sliding);
+        self.rotor_work_j += mass * sliding;
         self.friction_heat_j += mass * (sliding - on_casing - on_blades);
     }
 }
@@ -94,7 +105,7 @@ impl Events {
     /// model \[s\].
     fn first_beyond(&self, s: f64) -> Option<f64> {
         let (flow, stretch) = (&self.flow, &self.stretch);
-        let (from, stiffness) = (stretch.from(), flow.blades.as_ref()?.propagator.stiffness);
+        let (from, stiffness) = (&stretch.from, flow.blades.as_ref()?.propagator.stiffness);
         let reach = if stretch.free {
             amplitude(from.a, from.da, stiffness)
         } else {
@@ -151,7 +162,7 @@ impl Events {
             true => widest,
             false => widest.max(polygon.largest_component_near(a.re, a.im, &mut near)),
         };
-        let (mut a, mut da) = (stretch.from().a, stretch.from().da);
+        let (mut a, mut da) = (stretch.from.a, stretch.from.da);
         if !stretch.free {
             let angle = |part: u32| stretch.point(flow, s * f64::from(part) / 4.0).a;
             return (0..=4).map(angle).fold(self.run.widest, wider);

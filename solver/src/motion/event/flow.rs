@@ -19,7 +19,7 @@
 use crate::model::Machine;
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
-use crate::motion::{Plane, across, dot, size};
+use crate::motion::{Plane, across, dot, size, turned};
 use crate::scene::{ModelSize, Scene};
 
 /// Gaps below this part of the motion's size count as closed: a few roundings. Larger: impacts come
@@ -262,19 +262,21 @@ impl Flow {
         self.casing_rates().max(self.blades.map_or(0.0, own))
     }
 
-    /// Returns the face of a row at a point.
-    pub(super) fn face(&self, row: usize, point: &Point) -> Face {
+    /// Returns the direction `exp(i psi)` of a row, and its normal with the blades at the angle `a`.
+    pub(super) fn normal(&self, row: usize, a: Plane) -> (Plane, Plane) {
         let base = self.rows.get(row).copied().unwrap_or_default();
+        let phase = self.diameters() * dot(base, a);
+        (base, if phase == 0.0 { base } else { turned(base, phase) })
+    }
+
+    /// Returns the face of a row at a point.
+    #[inline]
+    pub(super) fn face(&self, row: usize, point: &Point) -> Face {
+        let (base, normal) = self.normal(row, point.a);
         let Some(blades) = &self.blades else {
-            return Face { base, normal: base, casing: self.turn * base, ..Face::default() };
+            return Face { base, normal, casing: self.turn * base, ..Face::default() };
         };
-        let (normal, y) = match blades.diameters {
-            0.0 => (base, 0.0),
-            d => {
-                let normal = base * Plane::cis(d * dot(base, point.a));
-                (normal, d * across(normal, point.z))
-            }
-        };
+        let y = blades.diameters * across(normal, point.z);
         let (lift, lever) = (blades.arm - y, (blades.moment - y) / blades.mass);
         let (lift, blades) = (base * lift, base * -lever);
         Face { base, normal, lift, casing: self.turn * normal, blades }
@@ -282,7 +284,8 @@ impl Flow {
 
     /// Returns the gap of a row \[m\].
     pub(super) fn gap(&self, row: usize, point: &Point) -> f64 {
-        self.gap_at(row, &self.face(row, point), point)
+        let (base, normal) = self.normal(row, point.a);
+        self.apothem(row) + dot(normal, point.z) - self.arm() * dot(base, point.a)
     }
 
     /// Returns the gap of a row with its face at the point \[m\].
@@ -290,20 +293,39 @@ impl Flow {
         self.apothem(row) + dot(face.normal, point.z) - self.arm() * dot(face.base, point.a)
     }
 
-    /// Returns the rows whose gaps may be smaller than `gap`, from the nearest on to both sides:
-    /// beyond them, the direction of the casing is too far from theirs.
-    pub(super) fn near(&self, point: &Point, gap: f64) -> impl Iterator<Item = usize> + use<> {
-        let polygon = &self.machine.polygon;
-        let distance = size(point.z);
-        let turned = (self.arm().abs() + self.diameters() * distance) * size(point.a);
-        let cos = (self.least_clearance() - gap - turned) / distance;
-        let reach = if cos < 1.0 { cos.max(-1.0).acos() } else { 0.0 };
-        let sides = self.rows.len();
-        let beside = (reach / (2.0 * polygon.delta)).ceil() as usize + 1;
-        let nearest = polygon.nearest_side(point.z.re, point.z.im) as usize;
-        (0..sides.min(2 * beside + 1)).map(move |k| {
-            let offset = if k % 2 == 1 { k.div_ceil(2) } else { sides - k / 2 };
-            (nearest + offset) % sides
+    /// Returns the rows whose gaps may be smaller than `gap`: the nearest, which is looked for from the
+    /// row `near` on, those after it, and those before it.
+    pub(super) fn near(
+        &self,
+        point: &Point,
+        gap: f64,
+        near: Option<usize>,
+    ) -> impl Iterator<Item = usize> + use<> {
+        let (z, sides) = (point.z, self.rows.len());
+        let turned = (self.arm().abs() + self.diameters() * size(z)) * size(point.a);
+        let most = gap + turned - self.least_clearance();
+        let open = |row: usize| dot(self.rows[row], z);
+        let next = |row: usize| if row + 1 == sides { 0 } else { row + 1 };
+        let last = |row: usize| if row == 0 { sides - 1 } else { row - 1 };
+        let nearest = || self.machine.polygon.nearest_side(z.re, z.im) as usize;
+        let mut nearest = near.unwrap_or_else(nearest);
+        while open(next(nearest)) < open(nearest) {
+            nearest = next(nearest);
+        }
+        while open(last(nearest)) < open(nearest) {
+            nearest = last(nearest);
+        }
+        let (mut up, mut end) = (0, nearest);
+        while up < sides && open(end) <= most {
+            (up, end) = (up + 1, next(end));
+        }
+        let (mut all, mut end) = (up, last(nearest));
+        while (1..sides).contains(&all) && open(end) <= most {
+            (all, end) = (all + 1, last(end));
+        }
+        (0..all).map(move |k| {
+            let row = if k < up { nearest + k } else { nearest + sides - (k + 1 - up) };
+            if row < sides { row } else { row - sides }
         })
     }
 
@@ -312,10 +334,9 @@ impl Flow {
         self.face(row, point).along(point.dz, point.da)
     }
 
-    /// Returns the acceleration of the gap of a row without contact forces, for the accelerations
-    /// `free` \[m/s^2\].
-    pub(super) fn gap_bend(&self, row: usize, point: &Point, free: (Plane, Plane)) -> f64 {
-        let face = self.face(row, point);
+    /// Returns the acceleration of the gap of a face at this point, for the accelerations `free` of
+    /// casing and blades \[m/s^2\].
+    pub(super) fn gap_bend(&self, face: &Face, point: &Point, free: (Plane, Plane)) -> f64 {
         let turning = self.diameters() * dot(face.base, point.da);
         let (across, along) = (across(face.normal, point.dz), dot(face.normal, point.z));
         face.along(free.0, free.1) + turning * (2.0 * across - turning * along)

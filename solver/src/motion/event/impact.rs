@@ -43,6 +43,11 @@ impl Events {
         Touch { row, face: self.flow.face(row, point), opening, push: 0.0 }
     }
 
+    /// Returns rows whose gaps are closed at this point.
+    pub(super) fn closed(&self, point: &Point, rows: &[usize]) -> Vec<Touch> {
+        rows.iter().map(|&row| self.touch(point, row, 0.0)).collect()
+    }
+
     /// Returns the rows that touch together with one that has just closed with the rate `closing`. A
     /// gap within round-off of closing that the other impact does not open is included. If it does
     /// open the gap, the two impacts follow each other, as they do next to such an instant.
@@ -56,12 +61,14 @@ impl Events {
         let mut met = Vec::with_capacity(MOST_HELD);
         met.push(first);
         met.extend(self.held.rows.iter().map(|&row| self.touch(point, row, 0.0)));
-        for row in self.flow.near(point, limit) {
+        let known = |row| self.opened.iter().any(|gap| gap.row == row);
+        let near = flow.near(point, limit, Some(hit)).filter(|&row| !known(row));
+        let opened = self.opened.iter().map(|gap| (gap.row, Some(gap)));
+        for (row, opened) in near.map(|row| (row, None)).chain(opened) {
             if row == hit || self.held.rows.contains(&row) {
                 continue;
             }
             let mut touch = self.touch(point, row, 0.0);
-            let opened = self.opened.iter().find(|gap| gap.row == row);
             let (gap, rate) = match opened {
                 Some(opened) => (opened.gap, opened.rate),
                 None => {
@@ -106,7 +113,7 @@ impl Events {
     }
 
     /// Applies the impact of rows that touch.
-    pub(super) fn meet(&mut self, point: &mut Point, met: &mut [Touch]) {
+    pub(super) fn meet(&mut self, point: &mut Point, mut met: Vec<Touch>) {
         let flow = &self.flow;
         let lift = flow.arm().abs() + flow.diameters() * size(point.z);
         // Slower rates count as rest; they are round-off of terms that cancel.
@@ -120,7 +127,7 @@ impl Events {
         let rates: [f64; MOST_TOUCHING] =
             std::array::from_fn(|k| met.get(k).map_or(0.0, |touch| touch.opening));
         met.iter_mut().for_each(|touch| touch.opening -= rebound(touch.opening));
-        if self.complementary(met).is_none() {
+        if self.complementary(&mut met).is_none() {
             self.fail_at(point, FailureReason::Singular { rows: met.len() });
             return;
         }
@@ -142,15 +149,19 @@ impl Events {
         for gap in &mut self.opened {
             gap.rate += flow.face(gap.row, point).along(z, a);
         }
+        let mean =
+            Point { dz: (before.dz + point.dz) * 0.5, da: (before.da + point.da) * 0.5, ..before };
+        let directed = met.iter().map(|touch| ((touch.face.base, touch.face.normal), touch.push));
+        self.ledger.sums.push(flow, &mean, 0.0, directed);
         let known = self.opened.len();
-        let (mut still, mut touched) = (Vec::new(), ActiveSet::Nothing);
-        for (&Touch { row, face, push, .. }, rate) in met.iter().zip(rates) {
+        let (mut rates, mut touched) = (rates.into_iter(), ActiveSet::Nothing);
+        met.retain(|&Touch { row, face, push, .. }| {
+            let rate = rates.next().unwrap_or(0.0);
             let after = if push > 0.0 { rebound(rate) } else { rate + face.along(z, a) };
-            if after > soft {
+            let opens = after > soft;
+            if opens {
                 let rate = after;
                 self.opened.push(OpenedGap { row, gap: 0.0, rate, released: false, struck: true });
-            } else {
-                still.push(row);
             }
             let lost = 0.5 * flow.machine.casing_mass * push * (rate + after);
             self.ledger.sums.impact_loss_j -= lost;
@@ -160,52 +171,46 @@ impl Events {
                     self.run.log.impact(t, row as u32);
                 }
             }
-        }
+            !opens
+        });
         if touched != ActiveSet::Nothing {
             self.run.log.touch(t, touched);
         }
-        let mean =
-            Point { dz: (before.dz + point.dz) * 0.5, da: (before.da + point.da) * 0.5, ..before };
-        self.ledger.sums.push(flow, &mean, 0.0, met.iter().map(|touch| (touch.face, touch.push)));
-        if let ([held], [opened]) = (&still[..], &self.opened[known..])
-            && let Some(time) = self.rocking(point, *held, opened)
+        if let ([held], [opened]) = (&met[..], &self.opened[known..])
+            && let Some(time) = self.rocking(point, held.row, opened)
         {
-            let rows = [*held, opened.row];
+            let rows = [held.row, opened.row];
             self.rock(point, rows, time);
             return;
         }
-        self.settle(point, &still);
+        self.settle(point, met);
     }
 
     /// Determines which of these gaps, closed and at rest, stay in contact.
-    pub(super) fn settle(&mut self, point: &mut Point, still: &[usize]) {
+    pub(super) fn settle(&mut self, point: &mut Point, mut met: Vec<Touch>) {
         let force = self.force();
         let flow = &self.flow;
         let free = flow.free(point, force);
         let noise = ROUND_OFF * flow.size_of_free(point, force);
-        let touch = |&row: &usize| {
-            let opening = flow.gap_bend(row, point, free);
-            self.touch(point, row, if opening.abs() <= noise { 0.0 } else { opening })
-        };
-        let mut met: Vec<Touch> = still.iter().map(touch).collect();
+        for touch in &mut met {
+            let opening = flow.gap_bend(&touch.face, point, free);
+            touch.opening = if opening.abs() <= noise { 0.0 } else { opening };
+        }
         if self.complementary(&mut met).is_none() {
-            self.fail_at(point, FailureReason::Singular { rows: still.len() });
+            self.fail_at(point, FailureReason::Singular { rows: met.len() });
             return;
         }
-        let flow = &self.flow;
         let (z, a) = pushed(met.iter().map(|touch| (&touch.face, touch.push)));
-        let mut rows = Vec::new();
-        for Touch { row, face, opening, push } in met {
-            if push > 0.0 || opening + face.along(z, a) <= noise {
-                rows.push(row);
-            } else {
+        met.retain(|&Touch { row, face, opening, push }| {
+            let stays = push > 0.0 || opening + face.along(z, a) <= noise;
+            if !stays {
                 let (gap, rate) = (0.0, 0.0);
                 self.opened.push(OpenedGap { row, gap, rate, released: false, struck: false });
             }
-        }
-        let count = rows.len();
-        let Some(held) = Held::new(flow, rows, point) else {
-            self.fail_at(point, FailureReason::Singular { rows: count });
+            stays
+        });
+        let Some(held) = Held::new(met.iter().map(|touch| (touch.row, touch.face))) else {
+            self.fail_at(point, FailureReason::Singular { rows: met.len() });
             return;
         };
         self.hold(held);
@@ -238,7 +243,7 @@ mod tests {
     #[test]
     fn of_gaps_that_have_just_opened_only_those_at_rest_touch_if_another_closes() {
         let mut motion = Events::of(&Scene::base().checked().unwrap());
-        let mut point = *motion.stretch.from();
+        let mut point = motion.stretch.from;
         // On side 1, whose impact opens the gaps next to it.
         point.z = -motion.flow.rows[1] * motion.flow.clearance();
         let opened = |row, rate| OpenedGap { row, gap: 0.0, rate, released: false, struck: false };
@@ -276,7 +281,7 @@ mod tests {
                 turn(&mut motion);
                 for part in 0..6 {
                     motion.advance(t + 1e-10 + 4e-6 * f64::from(part)).unwrap();
-                    let (flow, point) = (&motion.flow, motion.stretch.from());
+                    let (flow, point) = (&motion.flow, &motion.stretch.from);
                     let size = point.dz.norm() + flow.arm().abs() * point.da.norm();
                     for gap in &motion.opened {
                         let rate = flow.gap_rate(gap.row, point);

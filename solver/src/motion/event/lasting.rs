@@ -141,9 +141,9 @@ fn slope(flow: &Flow, held: &mut Held, point: &Point) -> Option<(Point, [f64; MO
     held.face(flow, point)?;
     let rate = flow.machine.omega_c;
     let free = flow.free(point, Plane::default());
-    let pushes = held.pushes(&held.each(|row| {
-        let (gap, opening) = (flow.gap(row, point), flow.gap_rate(row, point));
-        flow.gap_bend(row, point, free) + rate * (2.0 * opening + rate * gap)
+    let pushes = held.pushes(&held.each(|row, face| {
+        let (gap, opening) = (flow.gap(row, point), face.along(point.dz, point.da));
+        flow.gap_bend(face, point, free) + rate * (2.0 * opening + rate * gap)
     }));
     let (casing, tips) = pushed(held.facing(pushes));
     Some((Point { z: point.dz, dz: free.0 + casing, a: point.da, da: free.1 + tips }, pushes))
@@ -168,7 +168,8 @@ mod tests {
                 ("operation.speed_rad_s", speed),
             ]);
             let flow = Flow::new(&scene.unwrap());
-            let mut held = Held::new(&flow, vec![0, 1], &Point::default()).unwrap();
+            let rows = [0, 1].map(|row| (row, flow.face(row, &Point::default())));
+            let mut held = Held::new(rows.into_iter()).unwrap();
             let rest = Rest::of(&flow, &held).unwrap();
             let largest =
                 rest.rooms.iter().map(|(room, share)| room / share).fold(f64::INFINITY, f64::min);

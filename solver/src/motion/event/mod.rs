@@ -123,13 +123,14 @@ impl Events {
             phase: 0.0,
             held: Held::default(),
             opened: Vec::new(),
-            stretch: Stretch::flight(point, f64::INFINITY),
+            stretch: Stretch::default(),
             next: (f64::INFINITY, Ending::StretchEnd),
             rest: OnceLock::new(),
             lasting: Lasting::new(scene.solver.end_s),
             problem: Lcp::default(),
             flow,
         };
+        motion.stretch.fly(point, f64::INFINITY);
         motion.begin(point);
         motion
     }
@@ -170,7 +171,7 @@ impl Events {
         let limit = ON_A_SIDE * flow.clearance();
         // A closing rate within the round-off of its two contributions counts as zero.
         let noise = ON_A_SIDE * (flow.carried(&point, 0.0).norm() + flow.nu.abs() * point.z.norm());
-        let mut met: Vec<Touch> = (0..flow.rows.len())
+        let met: Vec<Touch> = (0..flow.rows.len())
             .filter(|&row| flow.gap(row, &point) <= limit)
             .map(|row| {
                 let rate = flow.gap_rate(row, &point);
@@ -180,7 +181,7 @@ impl Events {
         if met.is_empty() {
             self.enter(point);
         } else {
-            self.meet(&mut point, &mut met);
+            self.meet(&mut point, met);
         }
     }
 
@@ -492,7 +493,7 @@ mod tests {
     fn what_is_held_for_good_stays_and_what_swings_too_far_is_not() {
         let scene = scene(&keys([0.1, 0.15, 0.0, 500.0]));
         let calm = locked(&scene);
-        let from = *calm.stretch.from();
+        let from = calm.stretch.from;
         let mut proven = 0;
         for k in 0..200 {
             let size = if k == 0 { 0.0 } else { 1e-6 * 1.08_f64.powi(k) };

@@ -46,7 +46,7 @@ impl Events {
         let rigid = flow.blades.is_none() && flow.turn.im == 0.0;
         let rest = if rigid { Point { dz: Plane::default(), ..*point } } else { *point };
         let free = flow.free(&rest, Plane::default());
-        let [q_a, q_b] = [a.row, b].map(|row| flow.gap_bend(row, &rest, free));
+        let [q_a, q_b] = [&fa, &fb].map(|face| flow.gap_bend(face, &rest, free));
         let margin = MARGIN * flow.nu.abs() * a.rate;
         let pulls = [r_b * q_b - q_a, r_a * q_a - q_b];
         let rocks = q_a.max(q_b) < -margin
@@ -76,7 +76,7 @@ impl Events {
     /// the first of them, until it rests.
     pub(super) fn rock(&mut self, point: &mut Point, rows: [usize; 2], time: f64) {
         let before = self.flow.energy(point, 0.0);
-        let closed = Held::new(&self.flow, rows.to_vec(), point)
+        let closed = Held::new(rows.into_iter().map(|row| (row, self.flow.face(row, point))))
             .and_then(|mut held| held.close(&self.flow, point).map(|()| held));
         let Some(held) = closed else {
             self.fail_at(point, FailureReason::Singular { rows: 2 });

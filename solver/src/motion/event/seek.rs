@@ -5,7 +5,7 @@
 //! at a corner and bouncing on a side are resolved down to round-off.
 
 use super::flow::{EVENT, Flow};
-use super::series::{Gap, TERMS, Terms, curved_step, gap, jounce};
+use super::series::{Gap, Terms, curved_step, gap, jounce};
 use super::stretch::{Held, Stretch};
 
 /// Evaluations of a gap in the search for its zero, at most.
@@ -40,37 +40,31 @@ pub(super) struct OpenedGap {
 }
 
 impl OpenedGap {
-    /// Returns the gap as a power series over the stretch.
-    fn terms(&self, flow: &Flow, stretch: &Stretch) -> Terms {
+    /// Returns the gap as a power series over the stretch: `x` to the returned power, times the rest.
+    fn terms(&self, flow: &Flow, stretch: &Stretch) -> (usize, Terms) {
         let mut terms = stretch.gap(flow, self.row);
         (terms[0], terms[1]) = (self.gap, self.rate * stretch.length);
         if self.released {
             terms[2] = 0.0;
         }
-        terms
+        (leading_zeros(&terms), terms)
     }
 
     /// Advances the gap by `s` seconds.
     pub(super) fn later(&self, flow: &Flow, stretch: &Stretch, s: f64) -> Self {
-        let terms = self.terms(flow, stretch);
-        let (order, left) = without_zeros(&terms);
-        let (gap, rate) = grown(order, &left, s / stretch.length);
+        let (order, terms) = self.terms(flow, stretch);
+        let (gap, rate) = grown(order, &terms[order..], s / stretch.length);
         Self { gap: gap.max(0.0), rate: rate / stretch.length, released: false, ..*self }
     }
 }
 
-/// Removes the leading zero terms; returns their number and the rest.
-fn without_zeros(terms: &Terms) -> (usize, Terms) {
-    let order = terms.iter().take(3).take_while(|&&term| term == 0.0).count();
-    let mut left = [0.0; TERMS];
-    for (slot, &term) in left.iter_mut().zip(terms.iter().skip(order)) {
-        *slot = term;
-    }
-    (order, left)
+/// Returns the number of leading zero terms, of the first three.
+fn leading_zeros(terms: &[f64]) -> usize {
+    terms.iter().take(3).take_while(|&&term| term == 0.0).count()
 }
 
 /// Returns value and derivative of `x^order left(x)`.
-fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
+fn grown(order: usize, left: &[f64], x: f64) -> (f64, f64) {
     let Gap { gap: value, rate, .. } = gap(left, x);
     let power = |n: usize| x.powi(i32::try_from(n).unwrap_or(0));
     let grows = if order == 0 { 0.0 } else { order as f64 * power(order - 1) * value };
@@ -79,7 +73,7 @@ fn grown(order: usize, left: &Terms, x: f64) -> (f64, f64) {
 
 /// Returns the first `x` up to `end` at which the series falls to `noise`, and its derivative there;
 /// `None` if it does not.
-fn first_zero(terms: &Terms, noise: f64, end: f64) -> Option<(f64, f64)> {
+fn first_zero(terms: &[f64], noise: f64, end: f64) -> Option<(f64, f64)> {
     let falls: f64 = terms.iter().skip(1).map(|term| term.abs()).sum();
     if terms[0] > falls {
         return None;
@@ -112,22 +106,25 @@ pub(super) fn seek(
         }
     }
     for open in opened {
-        let (order, left) = without_zeros(&open.terms(flow, stretch));
+        let (order, terms) = open.terms(flow, stretch);
+        let left = &terms[order..];
         if left[0] < 0.0 {
             return (0.0, Ending::Touch(open.row, open.rate.min(0.0)));
         }
         let noise = flow.tolerance.max(EVENT) * left[0];
-        if let Some((x, rate)) = first_zero(&left, noise, end) {
+        if let Some((x, rate)) = first_zero(left, noise, end) {
             // At the zero itself only the derivative of the reduced series contributes.
             let slope = rate * x.powi(i32::try_from(order).unwrap_or(0));
             (end, what) = (x, Ending::Touch(open.row, (slope / stretch.length).min(0.0)));
         }
     }
     let [travel, reach] = stretch.travel;
+    // A part of the stretch has at most that part of the travel.
+    let travel = end * travel;
     if reach + travel >= flow.least_clearance() {
         let noise = flow.tolerance * (flow.clearance() + reach + travel);
-        let from = stretch.from();
-        for row in flow.near(from, travel + noise) {
+        let from = &stretch.from;
+        for row in flow.near(from, travel + noise, held.rows.first().copied()) {
             let known = || held.rows.contains(&row) || opened.iter().any(|gap| gap.row == row);
             if stretch.least_gap(flow, row, end) > noise || known() {
                 continue;
@@ -142,18 +139,15 @@ pub(super) fn seek(
 
 /// Returns the fraction of the stretch at which a contact force vanishes; `None` if it does not
 /// before `end`, or if there is none: a row in contact without a force is not opened by round-off.
-fn vanishes(stretch: &Stretch, terms: &Terms, tolerance: f64, end: f64) -> Option<f64> {
+fn vanishes(stretch: &Stretch, terms: &[f64], tolerance: f64, end: f64) -> Option<f64> {
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms[0] > stretch.noise {
         return first_zero(terms, tolerance * size, end).map(|(x, _)| x);
     }
     // The force starts at zero: its first nonzero term decides.
-    let mut left = *terms;
-    let first = left.iter().position(|term| term.abs() > stretch.noise)?;
-    left.iter_mut().take(first).for_each(|term| *term = 0.0);
-    if left[first] < 0.0 {
+    let first = terms.iter().position(|term| term.abs() > stretch.noise)?;
+    if terms[first] < 0.0 {
         return Some(0.0);
     }
-    let (_, left) = without_zeros(&left);
-    first_zero(&left, tolerance * size, end).map(|(x, _)| x)
+    first_zero(&terms[first..], tolerance * size, end).map(|(x, _)| x)
 }

@@ -20,12 +20,12 @@ pub(in crate::motion::event) const STRETCH: f64 = 0.8;
 pub(in crate::motion::event) type Terms = [f64; TERMS];
 
 /// Returns the value, by Horner's scheme.
-pub(in crate::motion::event) fn value(terms: &Terms, x: f64) -> f64 {
+pub(in crate::motion::event) fn value(terms: &[f64], x: f64) -> f64 {
     terms.iter().rev().fold(0.0, |value, term| value * x + term)
 }
 
 /// Returns the value and the first three derivatives as a gap.
-pub(in crate::motion::event) fn gap(terms: &Terms, x: f64) -> Gap {
+pub(in crate::motion::event) fn gap(terms: &[f64], x: f64) -> Gap {
     let (mut gap, mut rate, mut bend, mut twist) = (0.0, 0.0, 0.0, 0.0);
     for &term in terms.iter().rev() {
         twist = twist * x + bend;
@@ -37,7 +37,7 @@ pub(in crate::motion::event) fn gap(terms: &Terms, x: f64) -> Gap {
 }
 
 /// Returns a bound on the magnitude of the fourth derivative over the stretch.
-pub(in crate::motion::event) fn jounce(terms: &Terms) -> f64 {
+pub(in crate::motion::event) fn jounce(terms: &[f64]) -> f64 {
     let factor = |n: f64| n * (n - 1.0) * (n - 2.0) * (n - 3.0);
     terms.iter().enumerate().skip(4).map(|(n, term)| factor(n as f64) * term.abs()).sum()
 }
@@ -45,7 +45,7 @@ pub(in crate::motion::event) fn jounce(terms: &Terms) -> f64 {
 /// Returns whether the terms decrease fast enough that those dropped are round-off. The last two
 /// terms are not examined, because contact forces do not have them: `x^14/14!` at 1e-12 of the
 /// largest term leaves 1e-17 in the first term dropped, a geometric decrease 4e-16.
-pub(in crate::motion::event) fn ended(terms: &Terms) -> bool {
+pub(in crate::motion::event) fn ended(terms: &[f64]) -> bool {
     let largest = terms.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let last = terms.iter().rev().skip(2).take(2);
     last.into_iter().all(|term| term.abs() <= SERIES_TAIL * largest)
@@ -65,7 +65,7 @@ pub(in crate::motion::event) fn safe_step(gap: f64, rate: f64, bend: f64) -> f64
 }
 
 /// A gap and its first three derivatives at one instant.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::motion::event) struct Gap {
     pub gap: f64,
     pub rate: f64,

@@ -8,7 +8,7 @@
 //! push, and the turning of its normal adds `curvature_j`.
 
 use super::flow::{Blades, Face, Flow, pushed};
-use super::series::{STRETCH, TERMS, Terms, ended, gap, value};
+use super::series::{Gap, STRETCH, TERMS, Terms, ended, gap, value};
 use crate::motion::point::Point;
 use crate::motion::propagator::Propagator;
 use crate::motion::{Plane, dot, size};
@@ -40,13 +40,15 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// Creates the set of rows; `None` if their contact matrix is singular or there are too many.
-    pub(super) fn new(flow: &Flow, rows: Vec<usize>, point: &Point) -> Option<Self> {
-        if rows.len() > MOST_HELD {
-            return None;
+    /// Creates the set of rows with these faces; `None` if their contact matrix is singular or there
+    /// are too many.
+    pub(super) fn new(rows: impl Iterator<Item = (usize, Face)>) -> Option<Self> {
+        let mut held = Self::default();
+        for (place, (row, face)) in rows.enumerate() {
+            *held.faces.get_mut(place)? = face;
+            held.rows.push(row);
         }
-        let mut held = Self { rows, ..Self::default() };
-        held.face(flow, point)?;
+        held.invert()?;
         Some(held)
     }
 
@@ -55,6 +57,10 @@ impl Held {
         for (face, &row) in self.faces.iter_mut().zip(&self.rows) {
             *face = flow.face(row, point);
         }
+        self.invert()
+    }
+
+    fn invert(&mut self) -> Option<()> {
         let mut matrix = [[0.0; MOST_HELD]; MOST_HELD];
         for (line, face) in matrix.iter_mut().zip(self.faces()) {
             for (entry, by) in line.iter_mut().zip(self.faces()) {
@@ -82,11 +88,11 @@ impl Held {
         pushes
     }
 
-    /// Evaluates a function for each row.
-    pub(super) fn each(&self, opening: impl Fn(usize) -> f64) -> [f64; MOST_HELD] {
+    /// Evaluates a function for each row and its face.
+    pub(super) fn each(&self, opening: impl Fn(usize, &Face) -> f64) -> [f64; MOST_HELD] {
         let mut openings = [0.0; MOST_HELD];
-        for (slot, &row) in openings.iter_mut().zip(&self.rows) {
-            *slot = opening(row);
+        for (slot, (&row, face)) in openings.iter_mut().zip(self.rows.iter().zip(&self.faces)) {
+            *slot = opening(row, face);
         }
         openings
     }
@@ -102,13 +108,13 @@ impl Held {
         if self.rows.is_empty() {
             return Some(());
         }
-        let apart = self.pushes(&self.each(|row| flow.gap(row, point)));
+        let apart = self.pushes(&self.each(|row, _| flow.gap(row, point)));
         let (z, a) = pushed(self.facing(apart));
         (point.z, point.a) = (point.z + z, point.a + a);
         if flow.diameters() != 0.0 {
             self.face(flow, point)?;
         }
-        let rates = self.pushes(&self.each(|row| flow.gap_rate(row, point)));
+        let rates = self.pushes(&self.each(|_, face| face.along(point.dz, point.da)));
         let (dz, da) = pushed(self.facing(rates));
         (point.dz, point.da) = (point.dz + dz, point.da + da);
         Some(())
@@ -161,7 +167,7 @@ pub(super) struct Stretch {
     /// Duration; infinite if no event ends it \[s\].
     pub length: f64,
     /// Point at the start.
-    from: Point,
+    pub from: Point,
     /// Casing displacement \[m\].
     z: Wave,
     /// Blade angle \[rad\].
@@ -215,13 +221,6 @@ impl Stretch {
             }
             self.length *= 0.5;
         }
-    }
-
-    /// Creates a free flight that cannot end within `length` seconds.
-    pub(super) fn flight(from: Point, length: f64) -> Self {
-        let mut stretch = Self::default();
-        stretch.fly(from, length);
-        stretch
     }
 
     /// Becomes a free flight that cannot end within `length` seconds.
@@ -323,18 +322,14 @@ impl Stretch {
         }
     }
 
-    /// Returns the point at the start.
-    pub(super) fn from(&self) -> &Point {
-        &self.from
-    }
-
     /// Bounds the motion by the sum of its terms, and returns whether the terms left out are
     /// round-off.
     fn summed(&mut self, flow: &Flow, held: usize) -> bool {
         let z = lengths(&self.z);
-        let a = if flow.blades.is_some() { lengths(&self.a) } else { [0.0; TERMS] };
-        let (arm, d) = (flow.arm().abs(), flow.diameters());
-        let [at_z, at_a] = [&z, &a].map(|terms| gap(terms, 1.0));
+        let (arm, d, moving) = (flow.arm().abs(), flow.diameters(), flow.blades.is_some());
+        let a = if moving { lengths(&self.a) } else { [0.0; TERMS] };
+        let at_z = gap(&z, 1.0);
+        let at_a = if moving { gap(&a, 1.0) } else { Gap::default() };
         let moved = [at_z.gap - z[0], at_a.gap - a[0]];
         let turned = d * moved[1];
         self.travel = [moved[0] + arm * moved[1] + turned * at_z.gap, z[0] + arm * a[0]];
@@ -353,7 +348,7 @@ impl Stretch {
                 *push = [0.0; TERMS];
             }
         }
-        moves(&z) && moves(&a) && self.pushes.iter().take(held).all(ended)
+        moves(&z) && (!moving || moves(&a)) && self.pushes.iter().take(held).all(|push| ended(push))
     }
 
     /// Returns the fraction of the stretch after `s` seconds.
@@ -369,19 +364,30 @@ impl Stretch {
         if self.length == f64::INFINITY {
             return self.from;
         }
-        let x = self.part(s);
+        let [point] = self.points(flow, [s]);
+        point
+    }
+
+    /// Returns the points after these times, of a stretch that is not free.
+    pub(super) fn points<const N: usize>(&self, flow: &Flow, times: [f64; N]) -> [Point; N] {
+        let (parts, rest) = (times.map(|s| self.part(s)), Plane::default());
         let per = if self.length > 0.0 { 1.0 / self.length } else { 0.0 };
         let at = |[re, im]: &Wave| {
-            let (mut value, mut rate) = (Plane::default(), Plane::default());
+            let mut all = [(rest, rest); N];
             for (re, im) in re.iter().zip(im).rev() {
-                rate = rate * x + value;
-                value = value * x + Plane::new(*re, *im);
+                for ((value, rate), x) in all.iter_mut().zip(parts) {
+                    *rate = *rate * x + *value;
+                    *value = *value * x + Plane::new(*re, *im);
+                }
             }
-            (value, rate * per)
+            all
         };
-        let (z, dz) = at(&self.z);
-        let (a, da) = if flow.blades.is_some() { at(&self.a) } else { Default::default() };
-        Point { z, dz, a, da }
+        let casing = at(&self.z);
+        let blades = if flow.blades.is_some() { at(&self.a) } else { [(rest, rest); N] };
+        std::array::from_fn(|k| {
+            let ((z, dz), (a, da)) = (casing[k], blades[k]);
+            Point { z, dz: dz * per, a, da: da * per }
+        })
     }
 
     /// Returns the contact forces of the rows per unit casing mass after `s` seconds \[m/s^2\].
@@ -409,7 +415,7 @@ impl Stretch {
         let second = (term(&self.z, 2), term(&self.a, 2));
         let bend = h
             * h
-            * flow.gap_bend(row, from, (second.0 * (2.0 / (h * h)), second.1 * (2.0 / (h * h))));
+            * flow.gap_bend(&face, from, (second.0 * (2.0 / (h * h)), second.1 * (2.0 / (h * h))));
         // The least of now + rate x + bend x^2/2 is at an end or between them.
         let mut least = now.min(now + end * (rate + 0.5 * bend * end));
         if rate < 0.0 && bend > 0.0 && -rate < bend * end {
@@ -428,7 +434,7 @@ impl Stretch {
         let mut gap = part(&self.z);
         if let Some(Blades { arm, .. }) = flow.blades {
             let alpha = part(&self.a);
-            if turned != 0.0 {
+            if turned != 0.0 && alpha.iter().any(|term| *term != 0.0) {
                 let [re, im] = turned_normal(base, turned, &alpha);
                 gap = [0.0; TERMS];
                 for n in 0..TERMS {

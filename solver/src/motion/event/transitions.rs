@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::Events;
-use super::impact::Touch;
 use super::seek::{Ending, OpenedGap, seek};
-use super::stretch::{Held, Stretch};
+use super::stretch::Held;
 use crate::motion::point::Point;
 use crate::motion::{FailureReason, Plane, size};
 use crate::numeric::rounding::ROUNDINGS;
@@ -33,7 +32,7 @@ impl Events {
     /// Ends the motion at this point, at the start of the next stretch.
     pub(super) fn fail_at(&mut self, point: &Point, reason: FailureReason) {
         self.held = Held::default();
-        self.stretch = Stretch::flight(*point, f64::INFINITY);
+        self.stretch.fly(*point, f64::INFINITY);
         self.fail(0.0, reason);
     }
 
@@ -108,8 +107,8 @@ impl Events {
         let Some(mut point) = self.rebase(s) else { return };
         if what == Ending::StretchEnd && pulsed && !self.pulses() {
             // The contact forces jump together with the pulse.
-            let rows = self.held.rows.clone();
-            self.settle(&mut point, &rows);
+            let met = self.closed(&point, &self.held.rows);
+            self.settle(&mut point, met);
         } else {
             self.follow(&mut point, what);
         }
@@ -123,21 +122,21 @@ impl Events {
                 self.fail(0.0, FailureReason::TwoSides { angle_rad: size(point.a) });
             }
             Ending::Touch(row, rate) => {
-                let mut met = self.touching(point, row, rate);
-                self.meet(point, &mut met);
+                let met = self.touching(point, row, rate);
+                self.meet(point, met);
             }
             Ending::Release(row) => {
-                let still: Vec<usize> =
-                    self.held.rows.iter().copied().filter(|&held| held != row).collect();
+                let mut met = self.closed(point, &self.held.rows);
+                met.retain(|touch| touch.row != row);
                 let (gap, rate) = (0.0, 0.0);
                 self.opened.push(OpenedGap { row, gap, rate, released: true, struck: false });
-                self.settle(point, &still);
+                self.settle(point, met);
             }
             Ending::Lock => {
                 let t = self.run.clock.start();
                 self.run.log.accumulate(t);
-                let rows = self.held.rows.clone();
-                self.settle(point, &rows);
+                let met = self.closed(point, &self.held.rows);
+                self.settle(point, met);
             }
         }
     }
@@ -158,7 +157,9 @@ impl Events {
             let [travel, reach] = self.stretch.travel;
             if reach + travel >= flow.least_clearance() {
                 let known = |row: usize| self.opened.iter().any(|gap| gap.row == row);
-                let gaps = (0..flow.rows.len()).filter(|&row| !known(row));
+                let gaps = flow
+                    .near(&point, 0.0, self.held.rows.first().copied())
+                    .filter(|&row| !known(row));
                 let least = gaps.map(|row| flow.gap(row, &point)).fold(0.0, f64::min);
                 self.run.deepest = self.run.deepest.max(-least);
             }
@@ -226,17 +227,16 @@ impl Events {
                 self.rest = std::sync::OnceLock::new();
             }
             let rows = std::mem::take(&mut self.held).rows;
-            self.settle(&mut point, &rows);
+            let met = self.closed(&point, &rows);
+            self.settle(&mut point, met);
             return;
         }
         // A sudden change of speed acts on closed gaps like an impact.
         self.rest = std::sync::OnceLock::new();
-        let mut met: Vec<Touch> = std::mem::take(&mut self.held)
-            .rows
-            .into_iter()
-            .map(|row| self.touch(&point, row, self.flow.gap_rate(row, &point)))
-            .collect();
-        self.meet(&mut point, &mut met);
+        let rows = std::mem::take(&mut self.held).rows;
+        let mut met = self.closed(&point, &rows);
+        met.iter_mut().for_each(|touch| touch.opening = self.flow.gap_rate(touch.row, &point));
+        self.meet(&mut point, met);
     }
 
     /// Changes the machine to another speed and acceleration. The change of blade stiffness at the
