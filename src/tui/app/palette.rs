@@ -15,10 +15,11 @@ use crate::tui::theme::Role;
 
 impl App {
     /// Returns the entries that match the typed text behind `word`, and the index of the selected
-    /// one.
+    /// one: at first the best match, or in a list of scenes or lessons the open scene or the next lesson.
     pub fn palette(&self, word: &str, typed: &Field) -> (Vec<Found>, usize) {
         let found = words::found(self, &format!("{word}{}", typed.text()));
-        let first = || found.iter().position(|item| item.first).unwrap_or(0);
+        let is_whole_list = !word.is_empty() && typed.text().is_empty();
+        let first = || found.iter().position(|item| is_whole_list && item.first).unwrap_or(0);
         // A resize can leave the place past the end.
         let place = self.dialogue.place.unwrap_or_else(first).min(found.len().saturating_sub(1));
         (found, place)

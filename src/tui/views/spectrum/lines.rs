@@ -66,8 +66,7 @@ fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
     if count < 8 || samples.iter().any(|x| !x.is_finite()) {
         return Vec::new();
     }
-    let turns: Vec<(f64, f64)> =
-        (0..count).map(|k| (TAU * k as f64 / count as f64).sin_cos()).collect();
+    let turns: Vec<_> = (0..count).map(|k| (TAU * k as f64 / count as f64).sin_cos()).collect();
     for (sample, (_, cos)) in samples.iter_mut().zip(&turns) {
         *sample *= 0.5 - 0.5 * cos;
     }
