@@ -92,14 +92,8 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn dispatch(cli: Cli, out: &mut dyn Write) -> Done {
-    // The spinner would wipe the questions of `new`; the others end at once.
-    let unseen = |command: &Command| {
-        matches!(
-            command,
-            Command::New(_) | Command::Scenes(_) | Command::Completions(_) | Command::Man(_)
-        )
-    };
-    if !cli.command.as_ref().is_none_or(unseen) {
+    // The spinner would wipe the screen of the explorer and the questions of `new`.
+    if !matches!(cli.command, None | Some(Command::New(_))) {
         sign::begin();
     }
     match cli.command {

@@ -254,6 +254,20 @@ mod tests {
     }
 
     #[test]
+    fn a_blank_belongs_to_the_word_before_it_only_on_the_same_ground() {
+        let ink = Ink::of(Theme::Dark);
+        let mut buffer = Buffer::empty(Rect::new(0, 0, 3, 1));
+        buffer[(0, 0)].set_symbol("a");
+        buffer[(2, 0)].set_symbol("b");
+        let texts = |buffer: &Buffer| drawn_row(&buffer.content, 0, &ink).matches("<text").count();
+        assert_eq!(texts(&buffer), 1);
+        buffer[(1, 0)].bg = Color::Cyan;
+        let row = drawn_row(&buffer.content, 0, &ink);
+        assert!(row.contains("<rect x=\"8\" y=\"0\" width=\"8\""), "{row}");
+        assert_eq!(texts(&buffer), 2);
+    }
+
+    #[test]
     fn a_name_of_a_file_cannot_break_a_picture() {
         let scene = Scene::base();
         let mut app = App::new(scene.clone().checked().unwrap(), Theme::Dark, Marker::Braille);

@@ -164,6 +164,8 @@ fn a_new_scene_asks_again_after_a_bad_answer() {
         }
     }
     assert_eq!(terminal.wait(), 0);
+    let said = terminal.text();
+    assert!(said.contains("yes or no: perhaps") && !said.contains("assumed"), "{said}");
     let scene = std::fs::read_to_string(home.path().join("mine.toml")).unwrap();
     assert!(scene.contains("speed_rad_s = 890.117918") && scene.contains("blades = 36"), "{scene}");
 }

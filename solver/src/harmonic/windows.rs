@@ -164,9 +164,10 @@ pub fn flutters(machine: &Machine, toward: f64) -> Vec<LockWindow> {
 pub fn undamped_flutter_speed(machine: &Machine, toward: f64) -> Option<f64> {
     let rest = machine.at(0.0);
     let coupling = rest.coupling_product_at(toward);
-    if coupling == 0.0 || !rest.polygon.has_corners() || rest.has_other_diameters() {
+    if !rest.polygon.has_corners() || rest.has_other_diameters() {
         return None;
     }
+    // Infinite if the tips do not couple blades and casing.
     let compliance = 1.0 / rest.casing_mass + coupling / rest.blade_modal_mass;
     let square = compliance * (rest.casing_stiffness + rest.blade_modal_stiffness / coupling);
     // Blades that stiffen by B Omega^2 move the limit by the same share at every speed.
@@ -221,4 +222,22 @@ pub(super) fn windows(
         to: if to == last { closed.filter(|closed| *closed < furthest) } else { Some(close(to)) },
     };
     spans(&places, is_true).into_iter().map(window).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{BladedDisk, Casing};
+
+    #[test]
+    fn only_blades_with_corners_and_the_diameters_of_the_casing_flutter() {
+        for (casing, nodal_diameters) in [(3, 0), (3, 3), (3, 4), (11, 0)] {
+            let radial_coupling = 0.3;
+            let disk = BladedDisk { nodal_diameters, radial_coupling, ..BladedDisk::default() };
+            let machine = Machine::new(&disk, &Casing::default(), casing);
+            let flutters = casing == 3 && nodal_diameters != 4;
+            assert_eq!(!super::flutters(&machine, 1.0).is_empty(), flutters);
+            assert_eq!(undamped_flutter_speed(&machine, 1.0).is_some(), flutters);
+        }
+    }
 }

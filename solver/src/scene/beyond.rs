@@ -200,7 +200,6 @@ pub(super) fn tips(scene: &Scene) -> Result<(), SceneError> {
     let has_events = scene.solver.kind == SolverKind::Event;
     refuse_if(e != 0.0 && has_events, keys::OUT_OF_ROUND, format!("{e:e}"), allowed)?;
     let is_tight = scene.solver.contact != ContactLaw::Smooth
-        && scene.is_uneven()
         && !scene.machine().at(scene.fastest_rad_s()).has_room();
     let allowed = "less: no casing position leaves every gap open; solver.contact = \
                    \"smooth\" allows it";

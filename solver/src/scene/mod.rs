@@ -209,7 +209,7 @@ impl Scene {
         let machine = self.machine();
         let given = [u_c_m, u_s_m, v_c_m_s, v_s_m_s].iter().any(|value| *value != 0.0);
         let lined = self.solver.contact == ContactLaw::Smooth;
-        if given || lined || !machine.is_uneven() {
+        if given || lined {
             return (u_c_m, u_s_m);
         }
         machine.nearest_open((0.0, 0.0), 0.0, |_| 0.0).unwrap_or_default()

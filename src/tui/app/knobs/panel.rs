@@ -259,7 +259,24 @@ fn cell(cells: Rect, part: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tui::knobs::KNOBS;
+    use crate::tui::knobs::{KNOBS, knob_of};
+    use crate::tui::{Marker, Theme};
+    use rubscope_solver::scene::{Scene, keys};
+
+    #[test]
+    fn a_changed_knob_is_bold_and_so_is_its_folded_group() {
+        let mut app = App::new(Scene::base().checked().unwrap(), Theme::Mono, Marker::Ascii);
+        let knob = knob_of(keys::BLADES).unwrap();
+        let weights = |app: &App| {
+            let styles = [style(app, knob, false), folded(app, 26, knob.group).1];
+            styles.map(|style| style.add_modifier.contains(Modifier::BOLD))
+        };
+        assert_eq!(weights(&app), [false; 2]);
+        let mut scene = Scene::base();
+        scene.set(keys::BLADES, "23").unwrap();
+        app.scene = scene.checked().unwrap();
+        assert_eq!(weights(&app), [true; 2]);
+    }
 
     #[test]
     fn every_note_on_a_knob_fits_below_the_knobs() {
