@@ -18,7 +18,8 @@ use portable_pty::{
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A short run, so that a verdict is there soon.
-pub const SHORT: [&str; 4] = ["--step", "2e-7", "--end", "0.02"];
+pub const SHORT: [&str; 6] =
+    ["--step", "2e-7", "--end", "0.02", "--set", "view.charts=wheel,response,gaps"];
 
 /// A title, which no screen shows.
 const LAST: &str = "\u{1b}]0;last\u{7}";

@@ -41,21 +41,18 @@ fn open(line: &str) -> Session {
         "short" => scene(),
         name => Scene::builtin(name).unwrap(),
     };
-    let (mut theme, mut marker, mut stride) = (Theme::Dark, Marker::Braille, 3e-3);
-    let (mut checks, mut searches) = (true, false);
+    let (mut theme, mut marker, mut engine) = (Theme::Dark, Marker::Braille, Stepwise::new(3e-3));
     for word in words {
         match word.split_once('=') {
             None if word == "ascii" => marker = Marker::Ascii,
             None if word == "mono" => theme = Theme::Mono,
-            None if word == "unchecked" => checks = false,
-            None if word == "searched" => searches = true,
+            None if word == "unchecked" => engine.checks = false,
+            None if word == "searched" => engine.extent.searches_changes = true,
             None => panic!("{word}: allowed is ascii, mono, unchecked or searched"),
-            Some(("stride", seconds)) => stride = seconds.parse().unwrap(),
+            Some(("stride", seconds)) => engine.stride = seconds.parse().unwrap(),
             Some((key, value)) => opened.set(key, value).unwrap(),
         }
     }
-    let mut engine = Stepwise::new(stride);
-    (engine.checks, engine.extent.searches_changes) = (checks, searches);
     Session::with_engine(size, engine, opened, theme, marker)
 }
 
