@@ -304,12 +304,13 @@ impl SaddleFlow {
 }
 
 /// Returns the first time from which a condition is true, to the last digit: doubling from `guess`,
-/// then bisection. `None` if it is never true.
+/// then bisection. `None` if it is still false at the largest number.
 fn first_time(holds: impl Fn(f64) -> bool, guess: f64) -> Option<f64> {
     let (mut below, mut above) = (0.0, guess);
     while !holds(above) {
         (below, above) = (above, 2.0 * above);
-        if !above.is_finite() {
+        // Not even a guess of zero goes on for ever.
+        if !above.is_normal() {
             return None;
         }
     }

@@ -15,7 +15,8 @@ use crate::tui::theme::Role;
 
 impl App {
     /// Returns the entries that match the typed text behind `word`, and the index of the selected
-    /// one: at first the best match, or in a list of scenes or lessons the open scene or the next lesson.
+    /// one: at first the best match, or in a list of scenes or lessons the open scene or the next
+    /// lesson.
     pub fn palette(&self, word: &str, typed: &Field) -> (Vec<Found>, usize) {
         let found = words::found(self, &format!("{word}{}", typed.text()));
         let is_whole_list = !word.is_empty() && typed.text().is_empty();

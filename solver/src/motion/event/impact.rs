@@ -30,7 +30,7 @@ const MOST_TOUCHING: usize = 12;
 pub(super) struct Touch {
     /// Index of the row.
     pub row: usize,
-    face: Face,
+    pub face: Face,
     /// Rate of its gap \[m/s\], or its acceleration without contact forces \[m/s^2\].
     pub opening: f64,
     /// Impulse or contact force per unit casing mass.

@@ -142,7 +142,7 @@ fn slope(flow: &Flow, held: &mut Held, point: &Point) -> Option<(Point, [f64; MO
     let rate = flow.machine.omega_c;
     let free = flow.free(point, Plane::default());
     let pushes = held.pushes(&held.each(|row, face| {
-        let (gap, opening) = (flow.gap(row, point), face.along(point.dz, point.da));
+        let (gap, opening) = (flow.gap_at(row, face, point), face.along(point.dz, point.da));
         flow.gap_bend(face, point, free) + rate * (2.0 * opening + rate * gap)
     }));
     let (casing, tips) = pushed(held.facing(pushes));

@@ -235,7 +235,7 @@ impl Events {
         self.rest = std::sync::OnceLock::new();
         let rows = std::mem::take(&mut self.held).rows;
         let mut met = self.closed(&point, &rows);
-        met.iter_mut().for_each(|touch| touch.opening = self.flow.gap_rate(touch.row, &point));
+        met.iter_mut().for_each(|touch| touch.opening = touch.face.along(point.dz, point.da));
         self.meet(&mut point, met);
     }
 

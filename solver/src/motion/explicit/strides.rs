@@ -160,10 +160,10 @@ impl Explicit {
         // No extreme of a tip swing may lie inside the stride.
         let steps = (ANGLE_LOOK / self.disk.fastest_turn()).max(1.0);
         let most = if law.rise == 0.0 { u64::MAX } else { 1 << (steps.min(2e9) as u64).ilog2() };
-        let safe = map.longest(&state, false, law.diameters * reach, most, |place| {
+        let (steps, _) = map.longest(&state, false, law.diameters * reach, most, |place| {
             tips.least_gap(place, law, ActiveSet::Nothing) - margin
         })?;
-        let ((steps, _), length) = (safe, safe.0 as f64);
+        let length = steps as f64;
         let mode = self.disk.modes_of_pair().first().filter(|_| may_pass);
         let sag = 0.125 * length * length * mode.map_or(0.0, |mode| mode.bend(reach));
         Some(Stride { steps, map, first, state, holds: false, sag })

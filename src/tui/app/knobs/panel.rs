@@ -215,8 +215,8 @@ fn all(app: &App, width: usize, open: &[Group], telling: bool, from: usize) -> V
     rows
 }
 
-/// Draws the bar of the selected knob into `cells` of one row; its end marks are outside. Knobs without a
-/// numeric range have no bar.
+/// Draws the bar of the selected knob into `cells` of one row; its end marks are outside. Knobs
+/// without a numeric range have no bar.
 pub fn draw(app: &App, buffer: &mut Buffer, cells: Rect, knob: &Knob) {
     let Some(range) = app.range(knob) else { return };
     if cells.width == 0 {
