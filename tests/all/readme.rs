@@ -189,7 +189,8 @@ fn header(session: &Session) -> String {
 fn the_first_minute_is_as_it_says() {
     let mut session = open(Theme::Mono);
     let start = header(&session);
-    assert!(start.contains("500 rad/s") && start.contains("Blades 12 and 19"), "{start}");
+    assert!(start.contains("500 rad/s") && start.contains("LOCKED"), "{start}");
+    assert!(start.contains("Blades 12 and 19"), "{start}");
     let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
     let first = session.text().lines().next().unwrap().trim().to_string();
     assert!(page.contains(&format!("\n{first}\n")), "the page does not say {first}");
@@ -203,6 +204,7 @@ fn the_first_minute_is_as_it_says() {
     assert!(header(&session).contains("ADHESIVE"), "{}", header(&session));
     session.press("5");
     session.press("");
+    assert_eq!(session.app.view().word(), "map");
     assert!(session.text().contains("5 map"), "{}", session.text());
     session.press("\u{1b}g");
     assert!(session.text().contains("Lessons"), "{}", session.text());

@@ -1,13 +1,12 @@
 //! Text from outside on the screen: titles and names that would act on a
 //! terminal, or break the layout, if they were shown as they are.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use ratatui::buffer::Buffer;
 use rubscope::tui::events::ScreenEvent;
 use rubscope::tui::{App, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
-use crate::tui_support::Session;
+use crate::tui_support::{Session, key};
 
 /// Escape sequences, a break of a line, text from right to left, characters
 /// without a width, wide ones, and letters with many accents.
@@ -39,11 +38,6 @@ fn assert_harmless(buffer: &Buffer) {
         assert!(!cell.symbol().contains(acts), "{:?}", cell.symbol());
         assert!(cell.symbol().len() < 8 * 160, "{} bytes in a cell", cell.symbol().len());
     }
-}
-
-fn key(letter: char) -> ScreenEvent {
-    let code = if letter == '\n' { KeyCode::Enter } else { KeyCode::Char(letter) };
-    ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))
 }
 
 #[test]

@@ -1,11 +1,10 @@
-//! Keys and sizes that come to the explorer: pause and steps, files, and a storm of both.
+//! Keys, signals and sizes that come to the explorer: pause and steps, files, and ways to leave.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use rubscope::tui::events::ScreenEvent;
-use rubscope::tui::{Marker, Theme};
+use rubscope::tui::{Exit, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
-use crate::tui_support::{Session, scene};
+use crate::tui_support::{Session, key, scene};
 
 #[test]
 fn pause_stops_time_and_a_step_is_one_step() {
@@ -18,6 +17,14 @@ fn pause_stops_time_and_a_step_is_one_step() {
     let steps = (session.app.now() - before) / session.app.scene.solver.step_s;
     // Three steps, to the round-off of a time that is a multiple of a step.
     assert!((steps - 3.0).abs() < 1e-6, "{steps}");
+}
+
+#[test]
+fn signals_and_a_lost_terminal_end_with_their_number() {
+    for (event, number) in [(ScreenEvent::Signal(15), 15), (ScreenEvent::InputClosed, 1)] {
+        let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
+        assert_eq!(session.send([event].into_iter()), Exit::Signal(number));
+    }
 }
 
 #[test]
@@ -52,11 +59,10 @@ fn a_storm_of_sizes_between_keys_leaves_one_picture_of_the_last() {
     let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Dot);
     for (width, height) in [(40, 12), (1, 1), (200, 60), (0, 0), (39, 11), (97, 31)] {
         session.terminal.backend_mut().resize(width, height);
-        let storm = "\t[]fwf".chars().cycle().take(300).flat_map(|key| {
-            let code = if key == '\t' { KeyCode::Tab } else { KeyCode::Char(key) };
-            let key = ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE));
-            std::iter::repeat_with(|| ScreenEvent::Resize).take(10).chain([key])
-        });
+        let storm =
+            "\t[]fwf".chars().cycle().take(300).map(key).flat_map(|key| {
+                std::iter::repeat_with(|| ScreenEvent::Resize).take(10).chain([key])
+            });
         session.send(storm);
         assert_eq!(session.app.layout.size, (width, height));
     }

@@ -16,7 +16,7 @@ use rubscope::tui::{App, Exit, Marker, Theme};
 use rubscope_solver::scene::Scene;
 
 use crate::stepwise::{NoHost, Stepwise};
-use crate::tui_support::select;
+use crate::tui_support::{key, select};
 
 /// An explorer of a scene.
 fn app(scene: Scene) -> App {
@@ -45,10 +45,6 @@ fn run_with(
 ) -> Exit {
     let frame = Duration::from_millis(100);
     rubscope::tui::run(&mut screen(80, 24), events, app, engine, host, frame).unwrap()
-}
-
-fn key(code: KeyCode) -> ScreenEvent {
-    ScreenEvent::Key(KeyEvent::new(code, KeyModifiers::NONE))
 }
 
 fn press(app: &mut App, letter: char) {
@@ -143,15 +139,13 @@ fn quitting_waits_for_the_file_and_keeps_the_reason_why_it_was_not_written() {
     let results = vec![failed, FileResult::Exists, FileResult::Written];
     let mut host = Slow { results, events: sender.clone(), suspended: 0, unseen: None };
     for (quit, reason) in [
-        (key(KeyCode::Char('q')), Some("cannot write scene.toml: no room")),
+        (key('q'), Some("cannot write scene.toml: no room")),
         (interrupt(), Some("cannot write scene.toml: it exists")),
         (interrupt(), None),
     ] {
-        for code in [KeyCode::Char('s'), KeyCode::Enter] {
-            sender.send(key(code)).unwrap();
-        }
+        "s\n".chars().for_each(|letter| sender.send(key(letter)).unwrap());
         sender.send(quit).unwrap();
-        sender.send(key(KeyCode::Char('?'))).unwrap();
+        sender.send(key('?')).unwrap();
         // If the loop goes on, it is until this.
         end_in_a_minute(&sender);
         let mut engine = Stepwise::new(1e-4);
@@ -170,7 +164,7 @@ fn behind_a_burst_of_keys_a_ctrl_c_is_the_next_one() {
     for (before, answered) in [(1000, true), (1001, false)] {
         let (sender, events) = channel();
         for _ in 0..before {
-            sender.send(key(KeyCode::Right)).unwrap();
+            sender.send(key('→')).unwrap();
         }
         sender.send(interrupt()).unwrap();
         let mut app = app(Scene::base());
@@ -191,7 +185,7 @@ impl Engine for Repeating {
     fn order(&mut self, _: &Order) {
         std::thread::sleep(Duration::from_millis(4));
         self.left -= 1;
-        let next = if self.left > 0 { key(KeyCode::Right) } else { ScreenEvent::Signal(15) };
+        let next = if self.left > 0 { key('→') } else { ScreenEvent::Signal(15) };
         self.events.send(next).unwrap();
     }
 
@@ -220,9 +214,7 @@ fn a_burst_of_turns_of_one_knob_is_one_change_and_ends_at_the_refused_value() {
     // Down from there, Coulomb's law is without a direction at 0.
     let speed = 50.0;
     scene.operation.speed_rad_s = speed;
-    for (keys, wanted, refused) in
-        [(KeyCode::Right, speed + 200.0, false), (KeyCode::Left, 5.0, true)]
-    {
+    for (keys, wanted, refused) in [('→', speed + 200.0, false), ('←', 5.0, true)] {
         let presses = if refused { 60 } else { 40 };
         let one = |presses: usize, at_once: bool| {
             let mut app = app(scene.clone());
@@ -263,7 +255,7 @@ fn a_reason_that_no_screen_showed_is_kept_and_one_that_was_shown_is_not() {
         let mut none = Stepwise::new(1e-4);
         let engine: &mut dyn Engine = if shown { &mut second } else { &mut none };
         if !shown {
-            sender.send(key(KeyCode::Char('q'))).unwrap();
+            sender.send(key('q')).unwrap();
         }
         run_with(&events, &mut app(Scene::base()), engine, &mut host);
         assert_eq!(host.unseen.take().is_some(), !shown);
@@ -399,12 +391,9 @@ fn a_screen_too_small_for_the_question_takes_no_answer() {
         std::fs::write(&path, "old").unwrap();
         let (mut app, mut terminal) = (app(Scene::base()), screen(80, height));
         app.files.directory = folder.path().to_path_buf();
-        for keys in ["s\r", "y"] {
+        for keys in ["s\n", "y"] {
             let (sender, events) = channel();
-            for letter in keys.chars() {
-                let code = if letter == '\r' { KeyCode::Enter } else { KeyCode::Char(letter) };
-                sender.send(key(code)).unwrap();
-            }
+            keys.chars().for_each(|letter| sender.send(key(letter)).unwrap());
             drop(sender);
             let (mut engine, frame) = (Stepwise::new(1e-4), Duration::ZERO);
             let host = &mut NoHost;

@@ -47,6 +47,11 @@ fn code(letter: char) -> KeyCode {
     }
 }
 
+/// The event of a letter's key.
+pub fn key(letter: char) -> ScreenEvent {
+    ScreenEvent::Key(KeyEvent::new(code(letter), KeyModifiers::NONE))
+}
+
 impl Session {
     /// With 3 ms of motion at each look of the engine.
     pub fn open(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
@@ -86,7 +91,6 @@ impl Session {
 
     /// Presses keys, one a letter; two frames later the screen is looked at.
     pub fn press(&mut self, keys: &str) -> Exit {
-        let key = |letter| ScreenEvent::Key(KeyEvent::new(code(letter), KeyModifiers::NONE));
         self.send(keys.chars().map(key))
     }
 
