@@ -12,7 +12,7 @@ pub(super) const SHORT_SERIES_PHASE: f64 = 1.5e-3;
 pub(super) const SERIES_PHASE: f64 = 0.03;
 
 /// Point or vector in the plane of the two casing coordinates, as a complex number.
-pub(super) type Plane = nalgebra::Complex<f64>;
+pub(super) type Plane = num_complex::Complex<f64>;
 
 /// Returns the component of a vector along a direction.
 #[inline(always)]

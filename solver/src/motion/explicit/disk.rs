@@ -22,7 +22,7 @@ use super::drive::EngineOrderTorque;
 use super::fixed::Fixed;
 use super::oscillator::{Coordinate, Oscillator};
 use super::row::Row;
-use super::shapes::{Four, Label, dot};
+use super::shapes::{Four, Label, dot, total};
 use crate::model::Machine;
 use crate::scene::Scene;
 
@@ -109,12 +109,7 @@ impl Disk {
     /// beginning.
     #[inline]
     pub fn predict(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
-        if let Some((excitation, phase)) = excitation {
-            for (m, torque) in &mut self.driven {
-                *torque = driving_torque(excitation, self.fixed.labels[*m], phase);
-                self.modes[*m / 4].felt[*m % 4] += *torque;
-            }
-        }
+        self.drive(excitation);
         if !self.is_tuned() {
             self.pull_springs();
         }
@@ -132,6 +127,17 @@ impl Disk {
         self.seen.slack += total(moved);
     }
 
+    /// Adds the torques of an excitation at a phase, which act on the next step.
+    #[inline]
+    pub fn drive(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
+        let Some((excitation, phase)) = excitation else { return };
+        for (m, torque) in &mut self.driven {
+            let label = self.fixed.labels[*m];
+            *torque = excitation.torque_on(label.diameters, phase)[usize::from(label.is_sine)];
+            self.modes[*m / 4].felt[*m % 4] += *torque;
+        }
+    }
+
     /// Adds the torques of the extra springs.
     fn pull_springs(&mut self) {
         let mut torques = self.every_angle();
@@ -146,9 +152,6 @@ impl Disk {
 
     /// Adds torques on all rows, which act on the next step \[N m\].
     pub fn feel(&mut self, torques: &[f64]) {
-        if Arc::ptr_eq(&self.fixed.blades, &self.fixed.rows) {
-            return self.feel_blades(torques);
-        }
         let (rows, each) = self.rows();
         let blade = |blade: usize| torques[blade % rows] / f64::from(each);
         let shared: Vec<f64> = (0..self.fixed.blades.count()).map(blade).collect();
@@ -163,26 +166,17 @@ impl Disk {
         }
     }
 
-    /// Clears the torques added by `feel`.
+    /// Clears the torques that were added.
     pub fn forget_felt(&mut self) {
         self.modes.iter_mut().for_each(|four| four.felt = [0.0; 4]);
     }
 
-    /// Includes the torques added by `feel` in the fictitious step before the first, so that the start
+    /// Includes the torques that were added in the fictitious step before the first, so that the start
     /// is of second order.
     pub fn begin(&mut self) {
         for (m, oscillator) in self.oscillators.iter().enumerate() {
             let four = &mut self.modes[m / 4];
             four.increment[m % 4] -= oscillator.start_shift(four.felt[m % 4]);
-        }
-    }
-
-    /// Includes the torque of an excitation at the start in the fictitious step before the first.
-    pub fn begin_driven(&mut self, excitation: Option<(&EngineOrderTorque, f64)>) {
-        let Some((excitation, phase)) = excitation else { return };
-        for &(m, _) in &self.driven {
-            let torque = driving_torque(excitation, self.fixed.labels[m], phase);
-            self.modes[m / 4].increment[m % 4] -= self.oscillators[m].start_shift(torque);
         }
     }
 
@@ -226,6 +220,7 @@ impl Disk {
     #[inline]
     pub fn turn(&mut self, row: &Row, torque: f64) {
         let Self { modes, fixed, .. } = self;
+        self.seen.slack += fixed.most_turned * torque.abs();
         if fixed.is_pair {
             let Some(four) = modes.first_mut() else { return };
             for (k, shape) in row.shape.into_iter().enumerate() {
@@ -233,7 +228,6 @@ impl Disk {
                 four.x[k] += change;
                 four.increment[k] += change;
             }
-            self.seen.slack += four.compliance[0] * torque.abs();
             return;
         }
         let shapes: Cow<'_, [Four]> = fixed.rows.row(row.index);
@@ -244,7 +238,6 @@ impl Disk {
                 four.increment[k] += change;
             });
         }
-        self.seen.slack += fixed.most_turned * torque.abs();
     }
 
     /// Sets the increase of the squared blade frequencies over those at standstill \[rad^2/s^2\].
@@ -290,16 +283,6 @@ impl Disk {
     #[inline(always)]
     pub fn pair_angles(&self) -> [f64; 2] {
         self.modes.first().map_or([0.0; 2], |four| [four.x[0], four.x[1]])
-    }
-
-    /// Returns the largest blade angle caused by a unit torque in one step
-    /// \[rad/(N m)\].
-    #[inline]
-    pub fn most_turned(&self) -> f64 {
-        match self.modes.first() {
-            Some(four) if self.fixed.is_pair => four.compliance[0],
-            _ => self.fixed.most_turned,
-        }
     }
 
     pub(super) fn at(&self, m: usize) -> Coordinate {
@@ -385,14 +368,4 @@ impl Disk {
         let work: f64 = self.driven.iter().map(|&(m, torque)| 0.5 * torque * moved(m)).sum();
         [total(loss), work]
     }
-}
-
-/// Returns the torque of an excitation on a mode at a phase \[N m\].
-fn driving_torque(excitation: &EngineOrderTorque, mode: Label, phase: f64) -> f64 {
-    excitation.torque_on(mode.diameters, phase)[usize::from(mode.is_sine)]
-}
-
-/// Returns the sum of four numbers.
-pub(super) fn total([a, b, c, d]: Four) -> f64 {
-    (a + b) + (c + d)
 }

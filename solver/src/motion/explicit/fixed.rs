@@ -74,7 +74,8 @@ impl Fixed {
             let first = shapes.row(0);
             every.all(|m| oscillators[m].compliance * first[m / 4][m % 4])
         };
-        let (mut influence, mut most_turned) = (Vec::new(), 0.0);
+        let mut influence = Vec::new();
+        let mut most_turned = oscillators.first().map_or(0.0, |mode| mode.compliance);
         if !is_pair {
             most_turned = turned(&every).iter().fold(0.0, |most, x| f64::max(most, x.abs()));
             let (turned, count) = (turned(&rows), rows.count());

@@ -6,10 +6,10 @@
 //! needs; sets and sides are computed only if other rows press than before.
 
 use super::Explicit;
-use super::disk::{Disk, total};
+use super::disk::Disk;
 use super::record::Record;
 use super::row::{Tip, TipLaw, Tips};
-use super::shapes::Four;
+use super::shapes::{Four, total};
 use crate::harmonic::Lining as RoundLining;
 use crate::model::{Frame, LiningLaw};
 use crate::motion::lasting::mark;

@@ -101,7 +101,9 @@ impl Explicit {
         let mut disk = Disk::new(scene, &machine);
         let tips_of_rows = Tips::new(&machine, &disk);
         let drive = Drive::of(scene, tips_of_rows.lobes);
-        disk.begin_driven(drive.driven(0));
+        disk.drive(drive.driven(0));
+        disk.begin();
+        disk.forget_felt();
         let casing = Oscillator::of_casing(&machine, drive.step);
         let (initial, speed, start) = (&scene.initial, drive.speed(0), scene.start());
         let u = [

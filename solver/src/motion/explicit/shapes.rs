@@ -5,10 +5,6 @@
 //! transform, `N log N` products instead of `N^2`.
 
 use std::borrow::Cow;
-use std::fmt;
-use std::sync::Arc;
-
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use crate::model::fraction_of_turn;
 use crate::motion::Plane;
@@ -17,7 +13,8 @@ use crate::motion::Plane;
 /// disk each row is computed on demand. Speed only.
 const SHAPES_KEPT: usize = 1 << 16;
 
-/// Number of single blades from which a Fourier transform costs less than products. Speed only.
+/// Number of single blades from which a Fourier transform costs less than products of a table, if
+/// it is a multiple of eight. Speed only.
 const SHAPES_TRANSFORMED: usize = 64;
 
 /// One number of each of four modes.
@@ -37,26 +34,15 @@ pub(super) struct Label {
 pub(super) struct Shapes {
     labels: Vec<Label>,
     /// Fractions of a turn, one a blade of the disk.
-    turn: Vec<(f64, f64)>,
+    turn: Vec<Plane>,
     /// Blades of a place: `place`, `place + count`, ...
     each: u32,
     count: usize,
     width: usize,
     /// Row after row; empty where there are too many.
     table: Vec<Four>,
-    ring: Option<Transforms>,
-}
-
-/// From the modes of a ring to its blades and back.
-struct Transforms {
-    to_blades: Arc<dyn ComplexToReal<f64>>,
-    to_modes: Arc<dyn RealToComplex<f64>>,
-}
-
-impl fmt::Debug for Transforms {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Transforms({})", self.to_blades.len())
-    }
+    /// Whether angles and forces of all places are worked out by transforms.
+    is_transformed: bool,
 }
 
 impl Shapes {
@@ -64,15 +50,15 @@ impl Shapes {
     /// and these are all their modes, in order of their diameters.
     pub fn new(labels: &[Label], blades: u32, each: u32, count: u32, is_ring: bool) -> Self {
         let (count, width) = (count as usize, labels.len().div_ceil(4));
-        let ring = (is_ring && count >= SHAPES_TRANSFORMED).then(|| {
-            let mut planner = RealFftPlanner::new();
-            let to_blades = planner.plan_fft_inverse(count);
-            Transforms { to_blades, to_modes: planner.plan_fft_forward(count) }
-        });
+        let has_table = count * width <= SHAPES_KEPT;
+        let is_quick = count >= SHAPES_TRANSFORMED && count.is_multiple_of(8);
+        let is_transformed = is_ring && (is_quick || !has_table);
         let labels = labels.to_vec();
-        let turn = (0..blades).map(|blade| fraction_of_turn(blade, blades)).collect();
-        let mut shapes = Self { labels, turn, each, count, width, table: Vec::new(), ring };
-        if count * width <= SHAPES_KEPT {
+        let of_blade = |blade| fraction_of_turn(blade, blades);
+        let turn = (0..blades).map(of_blade).map(|(cos, sin)| Plane::new(cos, sin)).collect();
+        let mut shapes =
+            Self { labels, turn, each, count, width, table: Vec::new(), is_transformed };
+        if has_table {
             shapes.table = (0..count).flat_map(|place| shapes.compute(place)).collect();
         }
         shapes
@@ -107,8 +93,8 @@ impl Shapes {
             let at = |k: u32| {
                 let blade = place as u64 + u64::from(k) * self.count as u64;
                 let turned = u64::from(label.diameters) * blade % self.turn.len() as u64;
-                let (cos, sin) = self.turn[turned as usize];
-                if label.is_sine { sin } else { cos }
+                let turn = self.turn[turned as usize];
+                if label.is_sine { turn.im } else { turn.re }
             };
             row[m / 4][m % 4] = (0..self.each).map(at).sum::<f64>() / f64::from(self.each);
         }
@@ -117,30 +103,23 @@ impl Shapes {
 
     /// Returns the angles at all places of these mode coordinates.
     pub fn all(&self, x: impl Fn(usize) -> f64) -> Vec<f64> {
-        let Some(ring) = &self.ring else {
+        if !self.is_transformed {
             let mut modes = vec![[0.0; 4]; self.width];
             (0..self.labels.len()).for_each(|m| modes[m / 4][m % 4] = x(m));
-            let angle = |place| {
-                let [a, b, c, d] = dot(&self.row(place), modes.iter().copied());
-                (a + b) + (c + d)
-            };
+            let angle = |place| total(dot(&self.row(place), modes.iter().copied()));
             return (0..self.count).map(angle).collect();
-        };
-        let mut spectrum = vec![Plane::default(); self.count / 2 + 1];
-        for (m, label) in self.labels.iter().enumerate() {
-            let half = if label.is_alone { 1.0 } else { 0.5 };
-            let place = &mut spectrum[label.diameters as usize];
-            if label.is_sine { place.im -= half * x(m) } else { place.re += half * x(m) }
         }
-        let mut angles = vec![0.0; self.count];
-        // Lengths agree, so it has no error.
-        let _ = ring.to_blades.process(&mut spectrum, &mut angles);
-        angles
+        let mut spectrum = vec![Plane::default(); self.count];
+        for (m, label) in self.labels.iter().enumerate() {
+            let place = &mut spectrum[label.diameters as usize];
+            if label.is_sine { place.im -= x(m) } else { place.re += x(m) }
+        }
+        self.transform(&spectrum).iter().map(|angle| angle.re).collect()
     }
 
     /// Calls `add` with the modal force of each mode due to torques at all places.
     pub fn feel(&self, torques: &[f64], mut add: impl FnMut(usize, f64)) {
-        let Some(ring) = &self.ring else {
+        if !self.is_transformed {
             let mut felt = vec![[0.0; 4]; self.width];
             for (place, torque) in torques.iter().enumerate().filter(|(_, torque)| **torque != 0.0)
             {
@@ -149,13 +128,47 @@ impl Shapes {
                 }
             }
             return (0..self.labels.len()).for_each(|m| add(m, felt[m / 4][m % 4]));
-        };
-        let (mut room, mut spectrum) =
-            (torques.to_vec(), vec![Plane::default(); self.count / 2 + 1]);
-        let _ = ring.to_modes.process(&mut room, &mut spectrum);
+        }
+        let torques: Vec<Plane> = torques.iter().map(|&torque| Plane::from(torque)).collect();
+        let spectrum = self.transform(&torques);
         for (m, label) in self.labels.iter().enumerate() {
             let of = spectrum[label.diameters as usize];
-            add(m, if label.is_sine { -of.im } else { of.re });
+            add(m, if label.is_sine { of.im } else { of.re });
+        }
+    }
+
+    /// Returns `sum_j x_j exp(2 pi i j k / N)` for every `k`.
+    fn transform(&self, x: &[Plane]) -> Vec<Plane> {
+        let mut room = vec![Plane::default(); 2 * x.len()];
+        let (sums, room) = room.split_at_mut(x.len());
+        transform(x, 1, &self.turn, sums, room);
+        sums.to_vec()
+    }
+}
+
+/// Writes the sums of every `stride`-th of `x`: those of as many parts as the smallest prime factor
+/// of their number says, then sums over the parts (Cooley and Tukey, 1965). `room` is as long.
+fn transform(x: &[Plane], stride: usize, turn: &[Plane], sums: &mut [Plane], room: &mut [Plane]) {
+    let count = sums.len();
+    let Some(parts) = (2..=count).find(|parts| count.is_multiple_of(*parts)) else {
+        sums[0] = x[0];
+        return;
+    };
+    let length = count / parts;
+    for part in 0..parts {
+        let (x, own) = (&x[part * stride..], part * length..(part + 1) * length);
+        transform(x, stride * parts, turn, &mut room[own.clone()], &mut sums[own]);
+    }
+    for k in 0..length {
+        (1..parts).for_each(|part| room[part * length + k] *= turn[part * k * stride]);
+        if parts == 2 {
+            (sums[k], sums[length + k]) = (room[k] + room[length + k], room[k] - room[length + k]);
+            continue;
+        }
+        for q in 0..parts {
+            let root = |part: usize| turn[part * q % parts * length * stride];
+            sums[q * length + k] =
+                (0..parts).map(|part| room[part * length + k] * root(part)).sum();
         }
     }
 }
@@ -168,4 +181,9 @@ pub(super) fn dot(shapes: &[Four], x: impl Iterator<Item = Four>) -> Four {
         (0..4).for_each(|k| sums[k] += shape[k] * x[k]);
     }
     sums
+}
+
+/// Returns the sum of four numbers.
+pub(super) fn total([a, b, c, d]: Four) -> f64 {
+    (a + b) + (c + d)
 }

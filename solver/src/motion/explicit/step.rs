@@ -332,7 +332,7 @@ impl Explicit {
             at.increment += part;
         }
         // A correction leaves terms of second order in its shift and in the blade phases it turns.
-        let phase = self.tips.diameters * turned * self.disk.most_turned();
+        let phase = self.tips.diameters * turned * self.disk.fixed.most_turned;
         let size = |at: Plane| at.re.abs() + at.im.abs();
         let left = (size(z) + size(shift)) * phase * phase + size(shift) * phase;
         if self.ledger.counts || self.restitution != 0.0 || left > self.record.deepest {
