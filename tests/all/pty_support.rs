@@ -1,6 +1,7 @@
 //! The built program in a pseudo-terminal whose reader can stop reading, and
 //! what its user can do: press keys, send signals, look, hang up.
 
+use std::fs::File;
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
 use std::path::Path;
@@ -13,6 +14,7 @@ use std::time::{Duration, Instant};
 use portable_pty::{
     Child, CommandBuilder, ExitStatus, MasterPty, PtySize, SlavePty, native_pty_system,
 };
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 
 /// A long limit, not a speed test: a loaded machine may be slow.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -26,8 +28,10 @@ const LAST: &str = "\u{1b}]0;last\u{7}";
 
 /// What the reader of the terminal does.
 const READS: u8 = 0;
+/// It reads at most once more.
 const PAUSES: u8 = 1;
-const GOES: u8 = 2;
+const PAUSED: u8 = 2;
+const GOES: u8 = 3;
 
 /// A pseudo-terminal with a program in it. Dropping it kills the program.
 pub struct Terminal {
@@ -154,11 +158,18 @@ impl Start {
             loop {
                 match state.load(Ordering::SeqCst) {
                     READS => {}
-                    PAUSES => {
+                    GOES => return,
+                    paused => {
+                        // Unless it shall read again by now.
+                        let _ = state.compare_exchange(
+                            paused,
+                            PAUSED,
+                            Ordering::SeqCst,
+                            Ordering::SeqCst,
+                        );
                         std::thread::sleep(Duration::from_millis(5));
                         continue;
                     }
-                    _ => return,
                 }
                 let Ok(count) = from.read(&mut buffer) else { return };
                 if count == 0 || sender.send(buffer[..count].to_vec()).is_err() {
@@ -239,9 +250,15 @@ impl Terminal {
         self.parser.process(bytes);
     }
 
+    /// The end of the terminal that programs write to.
+    fn slave_file(&self) -> File {
+        let name = self.master.as_ref().unwrap().tty_name().unwrap();
+        File::options().write(true).open(name).unwrap()
+    }
+
     /// Takes what the program writes next, if it comes soon.
     fn listen(&mut self) {
-        if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(20)) {
+        if let Ok(bytes) = self.output.recv_timeout(Duration::from_millis(5)) {
             self.heard(&bytes);
         }
     }
@@ -351,14 +368,22 @@ impl Terminal {
         })
     }
 
-    /// Nobody reads the terminal any more; the program writes until it is full.
+    /// Nobody reads the terminal any more, and the program has filled it.
     pub fn block(&mut self) {
         self.reader.store(PAUSES, Ordering::SeqCst);
-        // Each of these is a whole screen, several times what the system keeps.
-        for _ in 0..25 {
+        let slave = self.slave_file();
+        // Whoever writes at the moment makes it look full too.
+        let mut full = 0;
+        patiently("the terminal is never full", || {
+            // Each of these is a whole screen; the system keeps some ten kilobytes.
             self.send("\u{c}");
-            std::thread::sleep(Duration::from_millis(20));
-        }
+            std::thread::sleep(Duration::from_millis(10));
+            let mut room = [PollFd::new(&slave, PollFlags::OUT)];
+            let is_full = self.reader.load(Ordering::SeqCst) == PAUSED
+                && poll(&mut room, Some(&Timespec::default())).unwrap() == 0;
+            full = if is_full { full + 1 } else { 0 };
+            (full > 1).then_some(())
+        });
     }
 
     /// The terminal is read again.
@@ -404,9 +429,7 @@ impl Terminal {
         let status = self.ended();
         self.unblock();
         // What is written now comes after all that the program wrote.
-        let name = self.master.as_ref().unwrap().tty_name().unwrap();
-        let slave = std::fs::File::options().write(true).open(name);
-        slave.unwrap().write_all(LAST.as_bytes()).unwrap();
+        self.slave_file().write_all(LAST.as_bytes()).unwrap();
         patiently("the rest never came", || {
             self.listen();
             self.written.ends_with(LAST.as_bytes()).then_some(())

@@ -37,7 +37,7 @@ fn what_takes_long_shows_that_it_is_alive() {
 
 #[test]
 fn nothing_of_the_line_stays_or_goes_into_a_pipe() {
-    let command = "precision rub --end 0.3 --finest 1e-6 --repeat 3";
+    let command = "precision rub --end 0.2 --finest 1e-6 --repeat 1";
     let folder = tempfile::tempdir().unwrap();
     let mut terminal = start(command, folder.path());
     assert_eq!(terminal.wait(), 0);

@@ -15,7 +15,7 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 use crate::pty_support::{SHORT, Start, Terminal};
 
 /// Time between two actions: faster than any user.
-const PAUSE: Duration = Duration::from_millis(5);
+const PAUSE: Duration = Duration::from_millis(2);
 /// Actions between two looks at the program.
 const ROUND: usize = 100;
 /// Most resident memory \[MB\], at any time.
@@ -61,7 +61,7 @@ fn answers(terminal: &mut Terminal) {
     // An escape byte alone is a key only after a moment.
     for _ in 0..3 {
         terminal.send("\x1b");
-        std::thread::sleep(Duration::from_millis(100));
+        std::thread::sleep(Duration::from_millis(40));
     }
     terminal.send("?");
     terminal.wait_for("select the knob above");

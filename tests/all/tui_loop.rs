@@ -63,21 +63,24 @@ fn answer(app: &App) -> (Stepwise, Snapshot) {
     (engine, snapshot)
 }
 
-/// Ends the loop at the second picture.
-struct Second {
-    pictures: u32,
+/// Ends the loop once the last of some pictures is on the screen.
+struct Pictures {
+    left: u32,
     events: Sender<ScreenEvent>,
 }
 
-impl Engine for Second {
+impl Engine for Pictures {
     fn order(&mut self, _: &Order) {}
 
     fn take(&mut self) -> Option<Snapshot> {
-        self.pictures += 1;
-        if self.pictures == 2 {
+        None
+    }
+
+    fn drawn(&mut self) {
+        self.left -= 1;
+        if self.left == 0 {
             self.events.send(ScreenEvent::Signal(15)).unwrap();
         }
-        None
     }
 }
 
@@ -95,7 +98,7 @@ fn end_in_a_minute(events: &Sender<ScreenEvent>) {
 fn a_screen_without_news_is_drawn_again_to_notice_a_lost_terminal() {
     let (sender, events) = channel();
     end_in_a_minute(&sender);
-    let mut engine = Second { pictures: 0, events: sender };
+    let mut engine = Pictures { left: 2, events: sender };
     let exit = run(&events, &mut app(Scene::base()), &mut engine);
     assert_eq!(exit, Exit::Signal(15), "nothing was drawn for a minute");
 }
@@ -201,11 +204,11 @@ impl Engine for Repeating {
 #[test]
 fn a_key_that_repeats_faster_than_a_frame_waits_for_its_answer_is_drawn() {
     let (sender, events) = channel();
-    let mut engine = Repeating { events: sender, left: 100, frames: 0 };
+    let mut engine = Repeating { events: sender, left: 50, frames: 0 };
     let (mut app, frame) = (app(Scene::base()), Duration::from_millis(33));
     rubscope::tui::run(&mut screen(80, 24), &events, &mut app, &mut engine, &mut NoHost, frame)
         .unwrap();
-    assert!(engine.frames > 5, "{} frames of 100 keys", engine.frames);
+    assert!(engine.frames > 5, "{} frames of 50 keys", engine.frames);
 }
 
 #[test]
@@ -251,9 +254,9 @@ fn a_reason_that_no_screen_showed_is_kept_and_one_that_was_shown_is_not() {
     let failed = || ScreenEvent::Written(FileResult::Failed("no room".into()));
     for shown in [false, true] {
         sender.send(failed()).unwrap();
-        let mut second = Second { pictures: 0, events: sender.clone() };
+        let mut one = Pictures { left: 1, events: sender.clone() };
         let mut none = Stepwise::new(1e-4);
-        let engine: &mut dyn Engine = if shown { &mut second } else { &mut none };
+        let engine: &mut dyn Engine = if shown { &mut one } else { &mut none };
         if !shown {
             sender.send(key('q')).unwrap();
         }
