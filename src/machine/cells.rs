@@ -1,9 +1,8 @@
 //! The text of a table: its encoding, the separator of its cells, and its records with their line
 //! numbers.
 
+use anyhow::{Result, bail};
 use csv::StringRecord;
-
-use super::error::TableError;
 
 /// Records of a table with their line numbers, and the separator of their cells.
 pub(super) struct Cells {
@@ -20,7 +19,7 @@ pub(super) struct Cells {
 ///
 /// # Errors
 /// The bytes are no text.
-pub(super) fn cells(bytes: &[u8]) -> Result<Cells, TableError> {
+pub(super) fn cells(bytes: &[u8]) -> Result<Cells> {
     let text = text(bytes)?.replace("\r\n", "\n").replace('\r', "\n");
     let first = text.lines().next().unwrap_or_default().trim().trim_matches('"');
     let named = first.get(..4).filter(|start| start.eq_ignore_ascii_case("sep="));
@@ -48,7 +47,7 @@ pub(super) fn cells(bytes: &[u8]) -> Result<Cells, TableError> {
 }
 
 /// Decodes text in UTF-8, in UTF-16 with or without a byte order mark, or in Windows-1252.
-fn text(bytes: &[u8]) -> Result<String, TableError> {
+fn text(bytes: &[u8]) -> Result<String> {
     let zeros = |parity: usize| {
         let zeros = bytes.iter().skip(parity).step_by(2).filter(|byte| **byte == 0).count();
         4 * zeros > bytes.len()
@@ -56,21 +55,23 @@ fn text(bytes: &[u8]) -> Result<String, TableError> {
     let utf_16 = |bytes: &[u8], number: fn([u8; 2]) -> u16| {
         let units = bytes.chunks_exact(2).map(|pair| number([pair[0], pair[1]]));
         let decoded: Result<String, _> = char::decode_utf16(units).collect();
-        decoded.map_err(|_| TableError::NoText("text in UTF-16 with errors"))
+        decoded.or_else(|_| no_text("text in UTF-16 with errors"))
     };
     match bytes {
         [0xef, 0xbb, 0xbf, rest @ ..] => text(rest),
         [0xff, 0xfe, rest @ ..] => utf_16(rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => utf_16(rest, u16::from_be_bytes),
-        [b'P', b'K', 3, 4, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => {
-            Err(TableError::NoText("a workbook"))
-        }
+        [b'P', b'K', 3, 4, ..] | [0xd0, 0xcf, 0x11, 0xe0, ..] => no_text("a workbook"),
         _ if zeros(1) => utf_16(bytes, u16::from_le_bytes),
         _ if zeros(0) => utf_16(bytes, u16::from_be_bytes),
-        _ if bytes.contains(&0) => Err(TableError::NoText("binary data")),
+        _ if bytes.contains(&0) => no_text("binary data"),
         _ => Ok(String::from_utf8(bytes.to_vec())
             .unwrap_or_else(|_| bytes.iter().map(|byte| windows_1252(*byte)).collect())),
     }
+}
+
+fn no_text(what: &str) -> Result<String> {
+    bail!("this is {what}: save the table as CSV in UTF-8")
 }
 
 /// Characters of Windows-1252 from 0x80 to 0x9f, where it differs from Latin-1.

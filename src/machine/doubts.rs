@@ -4,10 +4,13 @@
 use std::f64::consts::TAU;
 
 use rubscope_solver::model::Mode;
-use rubscope_solver::scene::{Scene, keys};
-use rubscope_solver::study::margins::Margins;
-
 use rubscope_solver::numeric::rounding::rounded;
+use rubscope_solver::scene::Scene;
+use rubscope_solver::scene::keys::{
+    BLADE_DAMPING, BLADE_INERTIA, BLADE_LENGTH, CASING_DAMPING, CASING_MASS, CASING_MODES,
+    CASING_RADIUS, DIAMETERS, DISK_MODES, PULSE, SPEED,
+};
+use rubscope_solver::study::margins::Margins;
 
 /// Largest plausible clearance, relative to the radius; blade tips run within some tenths of a per
 /// cent. With a larger one, millimetres given as metres would not be noticed.
@@ -65,32 +68,99 @@ const FORCE: f64 = 1e7;
 /// of ten would not be noticed.
 const PUSH: f64 = 2e4;
 
-/// A structure, casing or disk, and the keys of its values.
-struct Structure {
-    name: &'static str,
-    modes: &'static str,
-    mass: &'static str,
-    damping: &'static str,
-    /// Where the amplitude of a mode shape is taken.
-    amplitude: &'static str,
+/// Returns one sentence for each value that looks like a unit error: of the scene, and the push of
+/// a tip in its lock.
+#[must_use]
+pub fn doubts(margins: &Margins) -> Vec<String> {
+    let mut all = of_scene(&margins.scene);
+    if let Some(push) = margins.tip_push().filter(|push| *push > PUSH) {
+        all.push(format!(
+            "In the lock a blade tip pushes with {:.1} kN; metal tips bear some {:.0} kN. Are \
+             masses, frequencies and the clearance right?",
+            1e-3 * push,
+            1e-3 * PUSH
+        ));
+    }
+    all
 }
 
-const STRUCTURES: [Structure; 2] = [
-    Structure {
+fn of_scene(scene: &Scene) -> Vec<String> {
+    let mut all = of_values(scene);
+    let casing = Structure {
         name: "casing",
-        modes: keys::CASING_MODES,
-        mass: keys::CASING_MASS,
-        damping: keys::CASING_DAMPING,
+        modes_key: CASING_MODES,
+        mass_key: CASING_MASS,
+        damping_key: CASING_DAMPING,
         amplitude: "the rim of the casing, radially",
-    },
-    Structure {
+        modes: checked_modes(scene, &scene.casing.modes, casing_mode),
+    };
+    let disk = Structure {
         name: "bladed disk",
-        modes: keys::DISK_MODES,
-        mass: keys::BLADE_INERTIA,
-        damping: keys::BLADE_DAMPING,
+        modes_key: DISK_MODES,
+        mass_key: BLADE_INERTIA,
+        damping_key: BLADE_DAMPING,
         amplitude: "the blade tips, along the rim",
-    },
-];
+        modes: checked_modes(scene, &scene.bladed_disk.modes, disk_mode),
+    };
+    let is_usual = [
+        casing.tell(scene, &scene.casing.modes, &mut all),
+        disk.tell(scene, &scene.bladed_disk.modes, &mut all),
+    ];
+    if is_usual == [true; 2] {
+        all.extend(apart_doubt(&casing.modes, &disk.modes));
+    }
+    all
+}
+
+/// Checks the values of a scene other than its modes.
+fn of_values(scene: &Scene) -> Vec<String> {
+    let mut all = Vec::new();
+    let radius = scene.casing.radius_m;
+    if !is_usual_radius(scene) {
+        let [least, most] = RADIUS;
+        all.push(format!("{CASING_RADIUS} = {radius} is in m, and casings have a radius of {least} to {most} m. Was it mm? Then write \"{radius} mm\"."));
+    }
+    let gap = scene.clearance();
+    let given =
+        format!("The clearance ({CASING_RADIUS} less {BLADE_LENGTH}) is {:.4} mm", 1e3 * gap);
+    if gap > CLEARANCE * radius {
+        let part = 100.0 * gap / radius;
+        all.push(format!("{given}, {part:.2} % of the radius; blade tips usually run within 1 %. Are both lengths in m, and to enough digits?"));
+    } else if (0.0..GAP).contains(&gap) {
+        all.push(format!("{given}, less than a machined surface deviates from a circle. Are both lengths given to enough digits?"));
+    }
+    let speed = scene.operation.speed_rad_s.abs();
+    let (tips, rpm) = (speed * radius, speed * 60.0 / TAU);
+    // If the radius is doubtful, it also explains the tip speed.
+    if is_usual_radius(scene) && tips > TIP_SPEED {
+        all.push(format!("{SPEED} = {speed} ({rpm:.0} rpm) moves the blade tips at {tips:.0} m/s; metal ones reach some 500. Was it rpm? Then write \"{speed} rpm\"."));
+    }
+    let force = scene.operation.pulse_n;
+    if force.abs() > FORCE {
+        all.push(format!(
+            "{PULSE} = {force:e} is in N, and more than the weight of {:.0} t. Is its unit right?",
+            FORCE / 1e4
+        ));
+    }
+    let (diameters, blades) = (scene.operation.nodal_diameters, scene.bladed_disk.blades);
+    if diameters > blades / 2 {
+        let alias = diameters.abs_diff(blades * ((diameters + blades / 2) / blades));
+        all.push(format!("{DIAMETERS} = {diameters} is more than half of the {blades} blades, which cannot distinguish it from {alias}."));
+    }
+    // Tips, eccentricity and lobes.
+    let is_large = |(_, length): &(&str, f64)| *length > CLEARANCE * radius;
+    if let Some((key, length)) = scene.unevenness().into_iter().find(is_large) {
+        all.push(format!(
+            "{key} = {length} is in m, and more than {:.0} % of the radius. Was it mm or um? Then write its unit.",
+            100.0 * CLEARANCE
+        ));
+    }
+    all
+}
+
+fn is_usual_radius(scene: &Scene) -> bool {
+    (RADIUS[0]..=RADIUS[1]).contains(&scene.casing.radius_m)
+}
 
 /// Checked values of one mode.
 #[derive(Clone, Copy)]
@@ -104,140 +174,164 @@ struct CheckedMode {
     stiffening: f64,
 }
 
-/// Returns one sentence for each value that looks like a unit error: of the scene, and the push of
-/// a tip in its lock.
-#[must_use]
-pub fn doubts(margins: &Margins) -> Vec<String> {
-    let mut all = of_scene(&margins.scene);
-    all.extend(margins.tip_push().filter(|push| *push > PUSH).map(|push| {
-        format!(
-            "In the lock a blade tip pushes with {:.1} kN; metal tips bear some {:.0} kN. Are \
-             masses, frequencies and the clearance right?",
-            1e-3 * push,
-            1e-3 * PUSH
-        )
-    }));
-    all
-}
-
-fn of_scene(scene: &Scene) -> Vec<String> {
-    let radius = radius_doubt(scene);
-    // If the radius is doubtful, it also explains the tip speed.
-    let speed = if radius.is_none() { speed_doubt(scene) } else { None };
-    let doubts =
-        [radius, clearance_doubt(scene), speed, force_doubt(scene), diameters_doubt(scene)];
-    let mut all: Vec<String> = doubts.into_iter().flatten().collect();
-    all.extend(tips_doubt(scene));
-    let (mut both, mut is_usual) = (Vec::new(), true);
-    for (structure, own) in STRUCTURES.iter().zip([&scene.casing.modes, &scene.bladed_disk.modes]) {
-        all.extend(modes_doubts(scene, structure, own));
-        let modes = checked_modes(scene, structure, own);
-        all.extend(
-            scaled_doubt(structure, &modes).or_else(|| mass_doubt(scene, structure, &modes)),
-        );
-        all.extend(damping_doubt(structure, &modes));
-        all.extend(stiffening_doubt(&modes));
-        let hertz = frequency_doubt(structure, &modes);
-        let course = course_doubts(structure, "frequency", "Hz", FALL, &modes, |mode| mode.hertz);
-        is_usual &= hertz.is_none() && course.is_empty();
-        all.extend(hertz.into_iter().chain(course));
-        let mass = |mode: &CheckedMode| mode.mass;
-        all.extend(course_doubts(structure, "modal mass", "kg", f64::INFINITY, &modes, mass));
-        both.push(modes);
+/// Returns the values of all modes of a structure that has the list `own`, or, if this is empty, of
+/// the mode in use.
+fn checked_modes(
+    scene: &Scene,
+    own: &[Mode],
+    in_use: fn(&Scene) -> CheckedMode,
+) -> Vec<CheckedMode> {
+    let mut scene = scene.clone();
+    if own.is_empty() {
+        return vec![in_use(&scene)];
     }
-    all.extend(if is_usual { apart_doubt(&both) } else { None });
-    all
-}
-
-/// Returns the values of all modes of a structure, or, if it has no list of modes, of the mode
-/// in use.
-fn checked_modes(scene: &Scene, structure: &Structure, own: &[Mode]) -> Vec<CheckedMode> {
-    let mut diameters: Vec<u32> = own.iter().map(|mode| mode.nodal_diameters).collect();
-    if diameters.is_empty() {
-        diameters.push(scene.operation.nodal_diameters);
-    }
-    let is_casing = structure.modes == keys::CASING_MODES;
-    let look = |diameters| {
-        let mut scene = scene.clone();
-        scene.operation.nodal_diameters = diameters;
-        if !own.is_empty() {
-            scene.bladed_disk.nodal_diameters = 0;
-        }
-        let machine = scene.machine();
-        let length = machine.blade_length;
-        let (omega, mass, damping) = match is_casing {
-            true => (machine.omega_c, machine.casing_mass, scene.casing_in_use().damping_ratio),
-            false => {
-                let mass = machine.blade_modal_mass / (length * length);
-                (machine.omega_bd, mass, scene.disk_in_use().damping_ratio)
-            }
-        };
-        let stiffening = if is_casing { 0.0 } else { scene.disk_in_use().centrifugal_stiffening };
-        CheckedMode { diameters, hertz: omega / TAU, mass, damping, stiffening }
+    scene.bladed_disk.nodal_diameters = 0;
+    let look = |mode: &Mode| {
+        scene.operation.nodal_diameters = mode.nodal_diameters;
+        in_use(&scene)
     };
-    diameters.into_iter().map(look).collect()
+    own.iter().map(look).collect()
 }
 
-fn radius_doubt(scene: &Scene) -> Option<String> {
-    let radius = scene.casing.radius_m;
-    let [least, most] = RADIUS;
-    (!(least..=most).contains(&radius)).then(|| {
-        format!(
-            "{} = {radius} is in m, and casings have a radius of {least} to {most} m. Was it mm? Then write \"{radius} mm\".",
-            keys::CASING_RADIUS
-        )
-    })
-}
-
-/// Checks tips, eccentricity and lobes against the size of usual imperfections.
-fn tips_doubt(scene: &Scene) -> Option<String> {
-    let most = CLEARANCE * scene.casing.radius_m;
-    let (key, length) = scene.unevenness().into_iter().find(|(_, length)| *length > most)?;
-    Some(format!(
-        "{key} = {length} is in m, and more than {:.0} % of the radius. Was it mm or um? Then write its unit.",
-        100.0 * CLEARANCE
-    ))
-}
-
-fn force_doubt(scene: &Scene) -> Option<String> {
-    let force = scene.operation.pulse_n;
-    (force.abs() > FORCE).then(|| {
-        format!(
-            "{} = {force:e} is in N, and more than the weight of {:.0} t. Is its unit right?",
-            keys::PULSE,
-            FORCE / 1e4
-        )
-    })
-}
-
-fn clearance_doubt(scene: &Scene) -> Option<String> {
-    let (gap, radius) = (scene.clearance(), scene.casing.radius_m);
-    let given = format!(
-        "The clearance ({} less {}) is {:.4} mm",
-        keys::CASING_RADIUS,
-        keys::BLADE_LENGTH,
-        1e3 * gap
-    );
-    if gap > CLEARANCE * radius {
-        let part = 100.0 * gap / radius;
-        return Some(format!(
-            "{given}, {part:.2} % of the radius; blade tips usually run within 1 %. Are both lengths in m, and to enough digits?"
-        ));
+fn casing_mode(scene: &Scene) -> CheckedMode {
+    let machine = scene.machine();
+    CheckedMode {
+        diameters: scene.operation.nodal_diameters,
+        hertz: machine.omega_c / TAU,
+        mass: machine.casing_mass,
+        damping: scene.casing_in_use().damping_ratio,
+        stiffening: 0.0,
     }
-    (0.0..GAP).contains(&gap).then(|| {
-        format!("{given}, less than a machined surface deviates from a circle. Are both lengths given to enough digits?")
-    })
 }
 
-fn speed_doubt(scene: &Scene) -> Option<String> {
-    let speed = scene.operation.speed_rad_s.abs();
-    let tips = speed * scene.casing.radius_m;
-    (tips > TIP_SPEED).then(|| {
-        format!(
-            "{} = {speed} ({:.0} rpm) moves the blade tips at {tips:.0} m/s; metal ones reach some 500. Was it rpm? Then write \"{speed} rpm\".",
-            keys::SPEED, speed * 60.0 / TAU
-        )
-    })
+fn disk_mode(scene: &Scene) -> CheckedMode {
+    let (machine, disk) = (scene.machine(), scene.disk_in_use());
+    CheckedMode {
+        diameters: scene.operation.nodal_diameters,
+        hertz: machine.omega_bd / TAU,
+        mass: machine.blade_modal_mass / (machine.blade_length * machine.blade_length),
+        damping: disk.damping_ratio,
+        stiffening: disk.centrifugal_stiffening,
+    }
+}
+
+/// A structure, casing or disk: the keys of its values, and its modes.
+struct Structure {
+    name: &'static str,
+    modes_key: &'static str,
+    mass_key: &'static str,
+    damping_key: &'static str,
+    /// Where the amplitude of a mode shape is taken.
+    amplitude: &'static str,
+    modes: Vec<CheckedMode>,
+}
+
+impl Structure {
+    /// Checks the modes. Returns whether their frequencies are plausible.
+    fn tell(&self, scene: &Scene, own: &[Mode], all: &mut Vec<String>) -> bool {
+        let Self { name, modes_key, mass_key, damping_key, amplitude, modes } = self;
+        let blades = scene.bladed_disk.blades;
+        for diameters in own.iter().map(|mode| mode.nodal_diameters).filter(|n| *n > blades / 2) {
+            all.push(format!("{modes_key} has a mode of {diameters} nodal diameters, more than half of the {blades} blades; it is never in use."));
+        }
+        let is_scaled =
+            |mass: &&f64| modes.iter().all(|mode| (mode.mass / *mass - 1.0).abs() < 1e-9);
+        let [least, most] = DENSITY.map(|density| density * scene.casing.radius_m.powi(3));
+        if let Some(mass) = SCALED_MASSES.iter().find(is_scaled) {
+            all.push(format!("Every modal mass of the {name} is exactly {mass} kg, to which FE programs scale mode shapes. rubscope needs 1/phi^2, where phi is the amplitude of such a shape at {amplitude}."));
+        } else if let Some((mode, at)) = first(modes, |mode| !(least..=most).contains(&mode.mass))
+            // If the radius is doubtful, it also explains the mass.
+            && is_usual_radius(scene)
+        {
+            let mass = rounded(mode.mass, 4);
+            all.push(format!("The modal mass of the {name}{at} is {mass} kg ({mass_key}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?"));
+        }
+        if let Some((mode, at)) = first(modes, |mode| mode.damping > DAMPING) {
+            let ratio = mode.damping;
+            all.push(format!("{damping_key} = {ratio}{at} is a fraction of critical damping; structures have some thousandths to hundredths. Was it per cent? Then write \"{ratio} %\"."));
+        }
+        let [least, most] = STIFFENING;
+        let is_odd = |b: f64| b != 0.0 && !(least..=most).contains(&b);
+        if let Some((mode, at)) = first(modes, |mode| is_odd(mode.stiffening)) {
+            let b = rounded(mode.stiffening, 3);
+            all.push(format!("The centrifugal stiffening B of the {name}{at} is {b}; first modes of blades have some 1 to 5. Are the speeds of its frequencies in the right unit, rpm, rad/s or Hz?"));
+        }
+        let count = all.len();
+        let [least, most] = FREQUENCY;
+        if let Some((mode, at)) = first(modes, |mode| !(least..=most).contains(&mode.hertz)) {
+            let hertz = rounded(mode.hertz, 4);
+            all.push(format!("The frequency of the {name}{at} is {hertz} Hz; first modes usually have {least} to {most} Hz."));
+        }
+        self.tell_course("frequency", "Hz", FALL, |mode| mode.hertz, all);
+        let is_usual = all.len() == count;
+        self.tell_course("modal mass", "kg", f64::INFINITY, |mode| mode.mass, all);
+        is_usual
+    }
+
+    /// Finds modes whose frequency or mass is far from that of the others: both vary smoothly with
+    /// the nodal diameters, and none falls by more than `fall` with more of them.
+    fn tell_course(
+        &self,
+        what: &str,
+        unit: &str,
+        fall: f64,
+        value: fn(&CheckedMode) -> f64,
+        all: &mut Vec<String>,
+    ) {
+        let far = |a: &CheckedMode, b: &CheckedMode| {
+            let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
+            let (rise, ratio) = ((value(a) / value(b)).ln(), (a_n / b_n).ln());
+            rise.abs() > COURSE[0].ln() + COURSE[1] * ratio.abs()
+                || (rise * ratio < 0.0 && rise.abs() > fall.ln())
+        };
+        let mut rest = self.modes.clone();
+        let oddest = |rest: &[CheckedMode]| {
+            let against = |place: &usize| rest.iter().filter(|it| far(&rest[*place], it)).count();
+            (0..rest.len()).filter(|place| against(place) > 0).max_by_key(against)
+        };
+        while let Some(place) = oddest(&rest) {
+            let odd = rest.remove(place);
+            let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
+            all.extend(near.map(|near| {
+                let [odd_value, near_value] = [&odd, near].map(|mode| rounded(value(mode), 4));
+                format!(
+                    "The {what} of the {} is {odd_value} {unit} at {} nodal diameters and {near_value} {unit} at {}. Is the decimal point right, and the unit?",
+                    self.name, odd.diameters, near.diameters
+                )
+            }));
+        }
+    }
+}
+
+/// Returns the first mode that meets the condition, and the words that name it and count the
+/// others.
+fn first(
+    modes: &[CheckedMode],
+    is_doubted: impl Fn(&CheckedMode) -> bool,
+) -> Option<(CheckedMode, String)> {
+    let doubted: Vec<&CheckedMode> = modes.iter().filter(|mode| is_doubted(mode)).collect();
+    let mode = **doubted.first()?;
+    let at = match (modes.len(), doubted.len()) {
+        (1, _) => String::new(),
+        (_, 1) => format!(" at {} nodal diameters", mode.diameters),
+        (_, all) => format!(" at {} nodal diameters (and {} more)", mode.diameters, all - 1),
+    };
+    Some((mode, at))
+}
+
+/// Asks about frequencies of the casing that are far from those of the disk with the nearest
+/// diameters.
+fn apart_doubt(casing: &[CheckedMode], disk: &[CheckedMode]) -> Option<String> {
+    let beside = |mode: &CheckedMode| {
+        let apart = |other: &&CheckedMode| other.diameters.abs_diff(mode.diameters);
+        disk.iter().min_by_key(apart).map_or(mode.hertz, |other| other.hertz)
+    };
+    let is_apart = |mode: &CheckedMode| (mode.hertz / beside(mode)).ln().abs() > APART.ln();
+    let (mode, at) = first(casing, is_apart)?;
+    let [casing, disk] = [mode.hertz, beside(&mode)].map(|hertz| rounded(hertz, 4));
+    Some(format!(
+        "The frequency of the casing{at} is {casing} Hz, and that of the bladed disk {disk} Hz. Is the decimal point right, and the unit?"
+    ))
 }
 
 /// Asks whether a range of speeds that was given without a unit \[rad/s\] was meant in rpm: blade
@@ -260,149 +354,6 @@ pub fn range_doubt(scene: &Scene, range: [f64; 2]) -> Option<String> {
         false => (format!("{from}:{to}"), format!("{from}rpm:{to}rpm")),
     };
     Some(format!("{typed} is in rad/s and {why}. Was it rpm? Then write {in_rpm}."))
-}
-
-fn diameters_doubt(scene: &Scene) -> Option<String> {
-    let (diameters, blades) = (scene.operation.nodal_diameters, scene.bladed_disk.blades);
-    (diameters > blades / 2).then(|| {
-        format!("{} = {diameters} is more than half of the {blades} blades, which cannot distinguish it from {}.", keys::DIAMETERS, diameters.abs_diff(blades * ((diameters + blades / 2) / blades)))
-    })
-}
-
-fn modes_doubts(scene: &Scene, structure: &Structure, own: &[Mode]) -> Vec<String> {
-    let (blades, key) = (scene.bladed_disk.blades, structure.modes);
-    let far = own.iter().filter(|mode| mode.nodal_diameters > blades / 2);
-    far.map(|mode| {
-        format!("{key} has a mode of {} nodal diameters, more than half of the {blades} blades; it is never in use.", mode.nodal_diameters)
-    })
-    .collect()
-}
-
-fn mass_doubt(scene: &Scene, structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
-    // If the radius is doubtful, it also explains the mass.
-    radius_doubt(scene).is_none().then_some(())?;
-    let [least, most] = DENSITY.map(|density| density * scene.casing.radius_m.powi(3));
-    let (mode, at) = first(modes, |mode| !(least..=most).contains(&mode.mass))?;
-    Some(format!(
-        "The modal mass of the {}{at} is {} kg ({}); at this radius modes of metal have {least:.2} to {most:.0} kg. Was it in g or in t?",
-        structure.name,
-        rounded(mode.mass, 4),
-        structure.mass
-    ))
-}
-
-/// Returns the first mode that meets the condition, and the words that name it and count the
-/// others.
-fn first(
-    modes: &[CheckedMode],
-    is_doubted: impl Fn(&CheckedMode) -> bool,
-) -> Option<(CheckedMode, String)> {
-    let doubted: Vec<&CheckedMode> = modes.iter().filter(|mode| is_doubted(mode)).collect();
-    let mode = **doubted.first()?;
-    let at = match (modes.len(), doubted.len()) {
-        (1, _) => String::new(),
-        (_, 1) => format!(" at {} nodal diameters", mode.diameters),
-        (_, all) => format!(" at {} nodal diameters (and {} more)", mode.diameters, all - 1),
-    };
-    Some((mode, at))
-}
-
-fn frequency_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
-    let [least, most] = FREQUENCY;
-    let (mode, at) = first(modes, |mode| !(least..=most).contains(&mode.hertz))?;
-    Some(format!(
-        "The frequency of the {}{at} is {} Hz; first modes usually have {least} to {most} Hz.",
-        structure.name,
-        rounded(mode.hertz, 4)
-    ))
-}
-
-fn damping_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
-    let (mode, at) = first(modes, |mode| mode.damping > DAMPING)?;
-    let ratio = mode.damping;
-    Some(format!(
-        "{} = {ratio}{at} is a fraction of critical damping; structures have some thousandths to hundredths. Was it per cent? Then write \"{ratio} %\".",
-        structure.damping
-    ))
-}
-
-/// Asks about modal masses that are all the 1 to which FE programs scale mode shapes.
-fn scaled_doubt(structure: &Structure, modes: &[CheckedMode]) -> Option<String> {
-    let is_scaled = |mass: &&f64| modes.iter().all(|mode| (mode.mass / *mass - 1.0).abs() < 1e-9);
-    let mass = SCALED_MASSES.iter().find(is_scaled)?;
-    Some(format!(
-        "Every modal mass of the {} is exactly {mass} kg, to which FE programs scale mode shapes. rubscope needs 1/phi^2, where phi is the amplitude of such a shape at {}.",
-        structure.name, structure.amplitude
-    ))
-}
-
-fn stiffening_doubt(modes: &[CheckedMode]) -> Option<String> {
-    let [least, most] = STIFFENING;
-    let is_odd = |b: f64| b != 0.0 && !(least..=most).contains(&b);
-    let (mode, at) = first(modes, |mode| is_odd(mode.stiffening))?;
-    Some(format!(
-        "The centrifugal stiffening B of the bladed disk{at} is {}; first modes of blades have some 1 to 5. Are the speeds of its frequencies in the right unit, rpm, rad/s or Hz?",
-        rounded(mode.stiffening, 3)
-    ))
-}
-
-/// Finds modes whose frequency or mass is far from that of the others: both vary smoothly with the
-/// nodal diameters, and none falls by more than `fall` with more of them.
-fn course_doubts(
-    structure: &Structure,
-    what: &str,
-    unit: &str,
-    fall: f64,
-    modes: &[CheckedMode],
-    value: impl Fn(&CheckedMode) -> f64,
-) -> Vec<String> {
-    let far = |a: &CheckedMode, b: &CheckedMode| {
-        let [a_n, b_n] = [a, b].map(|mode| f64::from(mode.diameters.max(1)));
-        let (rise, ratio) = ((value(a) / value(b)).ln(), (a_n / b_n).ln());
-        rise.abs() > COURSE[0].ln() + COURSE[1] * ratio.abs()
-            || (rise * ratio < 0.0 && rise.abs() > fall.ln())
-    };
-    let mut doubts = Vec::new();
-    let mut rest = modes.to_vec();
-    loop {
-        let against = |mode: &CheckedMode| rest.iter().filter(|other| far(mode, other)).count();
-        let Some(place) = (0..rest.len()).max_by_key(|place| against(&rest[*place])) else {
-            break;
-        };
-        if against(&rest[place]) == 0 {
-            break;
-        }
-        let odd = rest.remove(place);
-        let near = rest.iter().min_by_key(|other| other.diameters.abs_diff(odd.diameters));
-        doubts.extend(near.map(|near| {
-            format!(
-                "The {what} of the {} is {} {unit} at {} nodal diameters and {} {unit} at {}. Is the decimal point right, and the unit?",
-                structure.name,
-                rounded(value(&odd), 4),
-                odd.diameters,
-                rounded(value(near), 4),
-                near.diameters
-            )
-        }));
-    }
-    doubts
-}
-
-/// Asks about frequencies of the casing that are far from those of the disk with the nearest
-/// diameters.
-fn apart_doubt(both: &[Vec<CheckedMode>]) -> Option<String> {
-    let [casing, disk] = both else { return None };
-    let beside = |mode: &CheckedMode| {
-        let apart = |other: &&CheckedMode| other.diameters.abs_diff(mode.diameters);
-        disk.iter().min_by_key(apart).map_or(mode.hertz, |other| other.hertz)
-    };
-    let is_apart = |mode: &CheckedMode| (mode.hertz / beside(mode)).ln().abs() > APART.ln();
-    let (mode, at) = first(casing, is_apart)?;
-    Some(format!(
-        "The frequency of the casing{at} is {} Hz, and that of the bladed disk {} Hz. Is the decimal point right, and the unit?",
-        rounded(mode.hertz, 4),
-        rounded(beside(&mode), 4)
-    ))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! only. A number such as `1.300`, which may be 1300 or 1.3, leads to a question if no other number of
 //! the table shows the mark, or if others show the other mark.
 
-use super::error::TableError;
+use anyhow::{Result, bail};
 
 /// What the marks in a number can be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,11 +29,11 @@ pub(super) struct Number {
 ///
 /// # Errors
 /// A number can be read in two ways, or has marks between thousands.
-pub(super) fn decimal_mark(numbers: &[Number], point_is_sure: bool) -> Result<char, TableError> {
+pub(super) fn decimal_mark(numbers: &[Number], point_is_sure: bool) -> Result<char> {
     let marked: Vec<_> =
         numbers.iter().filter_map(|number| Some((number, number.marks()?))).collect();
     if let Some((number, _)) = marked.iter().find(|(_, marks)| *marks == Marks::Thousands) {
-        return Err(number.asked(&format!("is that {}", number.without_thousands())));
+        bail!(number.asked(&format!("is that {}", number.without_thousands())));
     }
     let shown = marked.iter().find_map(|(number, marks)| match marks {
         Marks::Decimal(mark) => Some((*mark, Some(*number))),
@@ -46,19 +46,18 @@ pub(super) fn decimal_mark(numbers: &[Number], point_is_sure: bool) -> Result<ch
         _ => None,
     };
     if let Some(question) = marked.iter().find_map(read) {
-        return Err(question);
+        bail!(question);
     }
     let other = marked.iter().find_map(|(number, marks)| match (marks, shown?) {
         (Marks::Decimal(mark), (shown, Some(first))) if *mark != shown => Some((number, first)),
         _ => None,
     });
-    match other {
-        Some((number, first)) => Err(number.asked(&format!(
-            "which is the decimal mark, that of this number or that of {}, {}",
-            first.path, first.cell
-        ))),
-        None => Ok(shown.map_or('.', |(mark, _)| mark)),
+    if let Some((number, Number { path, cell })) = other {
+        bail!(number.asked(&format!(
+            "which is the decimal mark, that of this number or that of {path}, {cell}"
+        )));
     }
+    Ok(shown.map_or('.', |(mark, _)| mark))
 }
 
 impl Number {
@@ -99,7 +98,7 @@ impl Number {
 
     /// Asks whether the mark separates decimals or thousands. `shown` is the decimal mark of the
     /// table with a number that has it.
-    fn either(&self, shown: Option<(char, Option<&Number>)>) -> TableError {
+    fn either(&self, shown: Option<(char, Option<&Number>)>) -> String {
         let (number, _) = self.parts();
         let (whole, decimals) = number.split_at(number.find(['.', ',']).unwrap_or(number.len()));
         let mark = shown.map_or_else(|| decimals.chars().next().unwrap_or('.'), |(mark, _)| mark);
@@ -110,11 +109,8 @@ impl Number {
         self.asked(&format!("is that {whole}{mark}{decimals}0 or {whole}{decimals}{beside}"))
     }
 
-    fn asked(&self, question: &str) -> TableError {
-        TableError::Number {
-            path: self.path.clone(),
-            cell: self.cell.clone(),
-            question: format!("{question}? Write it so, without marks between thousands"),
-        }
+    fn asked(&self, question: &str) -> String {
+        let Self { path, cell } = self;
+        format!("{path} = {cell}: {question}? Write it so, without marks between thousands")
     }
 }

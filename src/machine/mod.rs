@@ -5,11 +5,9 @@ mod build;
 mod cells;
 mod columns;
 mod doubts;
-mod error;
 mod marks;
 mod table;
 
 pub use build::{Family, ModalData};
 pub use doubts::{doubts, range_doubt};
-pub use error::TableError;
 pub use table::{ModeTable, read_modes};

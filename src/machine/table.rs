@@ -4,13 +4,13 @@
 
 use std::f64::consts::TAU;
 
+use anyhow::Result;
 use csv::StringRecord;
 use rubscope_solver::scene::{Quantity, SceneError, frequency_at_rest, hertz_of, keys};
 
 use super::build::{Family, digits};
 use super::cells::{Cells, cells};
 use super::columns::{Columns, DAMPING, MODE, SPEED, STIFFENING, STRUCTURE, is_head};
-use super::error::TableError;
 use super::marks::{Number, decimal_mark};
 use rubscope_solver::numeric::rounding::rounded;
 
@@ -47,17 +47,12 @@ const PAIR: f64 = 1e-3;
 /// # Errors
 /// A column is missing, a value is not allowed, or a number can be read in two ways; the message
 /// gives line and column.
-pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
+pub fn read_modes(bytes: &[u8]) -> Result<ModeTable> {
     let Cells { mut records, separator } = cells(bytes)?;
     let mut notes = Vec::new();
     let start = records.iter().position(|(_, record)| is_head(record)).unwrap_or(0);
     let before: Vec<String> = records.drain(..start).map(|(line, _)| line.to_string()).collect();
-    if !before.is_empty() {
-        notes.push(format!(
-            "lines not used, before the names of the columns: {}",
-            before.join(", ")
-        ));
-    }
+    note_unused(&mut notes, "lines not used, before the names of the columns", &before);
     let mut records = records.into_iter().peekable();
     let (line, mut names) = records.next().unwrap_or_default();
     let line =
@@ -70,9 +65,7 @@ pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
         names = named.collect();
     }
     let columns = Columns::of(&names, &line)?;
-    if !columns.unused.is_empty() {
-        notes.push(format!("columns not used: {}", columns.unused.join(", ")));
-    }
+    note_unused(&mut notes, "columns not used", &columns.unused);
     let records: Vec<_> = records.collect();
     let mark = decimal_mark(&numbers(&records, &columns), separator == b',')?;
     let mut found: [Vec<Measured>; 2] = Default::default();
@@ -98,8 +91,7 @@ pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
         let path = |name: &str| path(*line, name);
         let structure = given(STRUCTURE).unwrap_or_default();
         let structure = structure_of(&structure).ok_or_else(|| {
-            let allowed = format!("{} or {}", STRUCTURES[0].join(", "), STRUCTURES[1].join(", "));
-            SceneError::refused(path(STRUCTURE), structure, allowed)
+            SceneError::refused(path(STRUCTURE), structure, STRUCTURES.join(" or "))
         })?;
         let mode = Family::read(&given, &path)?;
         let speed =
@@ -116,13 +108,13 @@ pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
             None => pairs[structure].push(format!("line {line}")),
         }
     }
-    for (structure, lines) in
-        ["casing", "disk"].iter().zip(&pairs).filter(|(_, lines)| !lines.is_empty())
-    {
-        notes.push(format!(
-            "second modes of pairs of the {structure}, the same as the first ones and not used: {}",
-            lines.join(", ")
-        ));
+    for (structure, lines) in ["casing", "disk"].iter().zip(&pairs) {
+        let what = "the same as the first ones and not used";
+        note_unused(
+            &mut notes,
+            &format!("second modes of pairs of the {structure}, {what}"),
+            lines,
+        );
     }
     for (mode, speeds) in found[1].iter_mut().filter(|(_, speeds)| !speeds.is_empty()) {
         let name = format!("disk, {} nodal diameters, frequency_hz", mode.nodal_diameters);
@@ -132,6 +124,13 @@ pub fn read_modes(bytes: &[u8]) -> Result<ModeTable, TableError> {
     }
     let modes = found.map(|modes| modes.into_iter().map(|(mode, _)| mode).collect());
     Ok(ModeTable { modes, notes })
+}
+
+/// Adds a note on what is not used, unless its list is empty.
+fn note_unused(notes: &mut Vec<String>, what: &str, list: &[String]) {
+    if !list.is_empty() {
+        notes.push(format!("{what}: {}", list.join(", ")));
+    }
 }
 
 /// Signs of a harmonic index.
@@ -144,15 +143,13 @@ fn with_usual_exponent(cell: String) -> String {
 }
 
 /// Words for the casing and for the disk.
-const STRUCTURES: [&[&str]; 2] = [
-    &["casing", "housing", "stator"],
-    &["disk", "disc", "bladed disk", "bladed disc", "blisk", "rotor"],
-];
+const STRUCTURES: [&str; 2] =
+    ["casing, housing, stator", "disk, disc, bladed disk, bladed disc, blisk, rotor"];
 
 /// Returns 0 for a word for the casing, 1 for one for the disk.
 fn structure_of(cell: &str) -> Option<usize> {
     let word = cell.to_lowercase().replace(['_', '-'], " ");
-    STRUCTURES.iter().position(|words| words.contains(&word.as_str()))
+    STRUCTURES.iter().position(|words| words.split(", ").any(|known| known == word))
 }
 
 fn path(line: u64, name: &str) -> String {
