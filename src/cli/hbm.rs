@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::{Arg, ArgAction, ArgGroup, ArgMatches, Args, Command, FromArgMatches};
 use strum::VariantNames;
 
-use super::options::{SceneOptions, Swept};
+use super::options::SceneOptions;
 use super::output::OutputOptions;
 use super::status::{self, Done, Refusal};
 use super::words::Words;
@@ -13,7 +13,7 @@ use crate::sheet::CommandLine;
 use crate::sheet::hbm::{LOCKED, Request, VIEWS, View};
 use crate::sheet::ticks::linspace;
 use rubscope_solver::harmonic::Form;
-use rubscope_solver::scene::{Scene, SceneError};
+use rubscope_solver::scene::{Scene, SceneError, keys};
 
 /// Number of speeds of the default sweep, from standstill to the speed of the scene.
 const SPEEDS: usize = 51;
@@ -89,10 +89,10 @@ impl HbmCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
         self.output.ending()?;
         let RequestedView(view) = self.view;
-        let resolved = self.options.resolve(Swept { speed: true, pulse: false })?;
+        let resolved = self.options.resolve(&[keys::SPEED])?;
         self.options.ask_speed(&resolved.scene);
         let scene: &Scene = &resolved.scene;
-        let speeds = match resolved.speeds {
+        let speeds = match resolved.range(keys::SPEED) {
             Some(range) => range.values(),
             None if view.one_speed => vec![scene.operation.speed_rad_s],
             None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use rayon::prelude::*;
 
-use super::options::{SceneOptions, Swept, note_adjusted};
+use super::options::{SceneOptions, note_adjusted};
 use super::output::OutputOptions;
 use super::range::{Range, whole};
 use super::sign;
@@ -22,9 +22,6 @@ use rubscope_solver::study::{Axis, Map, MapPlan};
 const MOST_THREADS: u32 = 1024;
 /// Largest number of cells in a picture; each takes about a hundred bytes of SVG.
 const MOST_DRAWN: usize = 1_000_000;
-/// Default number of columns and rows: steps of 10 rad/s (or 100 rpm) and 50 kN.
-const COLUMNS: u32 = 51;
-const ROWS: u32 = 21;
 /// Help texts of `--speed` and `--pulse`, which are ranges for this command.
 const COLUMNS_OF_SPEED: &str =
     "Columns: rotor speeds; negative turns the other way [rad/s] [default: 0:500:51]";
@@ -100,25 +97,24 @@ impl MapCommand {
     }
 
     fn plan(&self) -> anyhow::Result<MapPlan> {
-        let swept = Swept { speed: self.x.is_none(), pulse: self.y.is_none() };
-        let resolved = self.options.resolve(swept)?;
-        let axis = |text: &Option<String>, path: &str, range: Option<Range>, from, to, count| match (
-            text, range,
-        ) {
-            (Some(text), _) => Axis::parse(text),
-            (None, Some(range)) => {
-                let count = u32::try_from(range.count).unwrap_or(u32::MAX);
-                Axis::new(path, range.from, range.to, count, false)
+        let axes = [(&self.x, keys::SPEED), (&self.y, keys::PULSE)];
+        let swept = axes.iter().filter(|(text, _)| text.is_none()).map(|(_, key)| *key);
+        let resolved = self.options.resolve(&swept.collect::<Vec<_>>())?;
+        let axis = |(text, path): (&Option<String>, &str), to, count| match text {
+            Some(text) => Axis::parse(text),
+            None => {
+                let usual = Range { from: 0.0, to, count };
+                let Range { from, to, count } = resolved.range(path).unwrap_or(usual);
+                Axis::new(path, from, to, count as u32, false)
             }
-            (None, None) => Axis::new(path, from, to, count, false),
         };
-        let scene = resolved.scene;
-        // The default range ends at a round number in the unit shown.
+        // Steps of 10 rad/s (or 100 rpm) and 50 kN; both ranges end at a round number in the unit
+        // shown.
         let fastest = if self.options.in_rpm() { from_shown(5000.0, "rad/s") } else { 500.0 };
         let mut plan = MapPlan {
-            x: axis(&self.x, keys::SPEED, resolved.speeds, 0.0, fastest, COLUMNS)?,
-            y: axis(&self.y, keys::PULSE, resolved.pulses, 0.0, 1e6, ROWS)?,
-            scene: scene.into_scene(),
+            x: axis(axes[0], fastest, 51)?,
+            y: axis(axes[1], 1e6, 21)?,
+            scene: resolved.scene.clone().into_scene(),
             sensitivity: !self.no_sensitivity,
         };
         note_adjusted(&plan.make_compatible(|key| self.options.sets(key))?);

@@ -92,8 +92,7 @@ impl NewCommand {
             return Err(Refusal::of("FILE", shown, allowed).into());
         }
         tell_in_rpm(self.rpm);
-        let asking = Asking::new();
-        let mut data = self.data(&asking)?;
+        let mut data = self.data()?;
         let scene = Scene::from_toml(&data.to_toml()?)?.checked()?;
         let margins = Margins::of(&scene);
         let touching = margins.limit(LimitName::TouchingPulse).and_then(|limit| limit.value);
@@ -101,7 +100,16 @@ impl NewCommand {
         let text = data.to_toml()?;
         let scene = Scene::from_toml(&text)?.checked()?;
         say_noted();
-        self.ask_about(&doubts(&Margins::of(&scene)), &asking)?;
+        let doubts = doubts(&Margins::of(&scene));
+        doubt_lines(&doubts).iter().try_for_each(|line| writeln!(stderr(), "{line}"))?;
+        if !doubts.is_empty() && stdin().is_terminal() {
+            let what = format!("Write {shown} all the same? yes or no");
+            asked("FILE", None, &what, None, &|answer| match answer {
+                "yes" | "y" => Ok(()),
+                "no" | "n" => Err(Stop.into()),
+                _ => Err(Refusal::of("answer", answer, "yes or no").into()),
+            })?;
+        }
         file::create(path, |out| out.write_all(text.as_bytes()))
             .with_context(|| format!("cannot write {shown}"))?;
         writeln!(out, "Wrote {shown}.")?;
@@ -112,22 +120,8 @@ impl NewCommand {
         Ok(Status::Done)
     }
 
-    /// Prints likely unit errors, and asks whether to write the scene anyway.
-    fn ask_about(&self, doubts: &[String], asking: &Asking) -> anyhow::Result<()> {
-        doubt_lines(doubts).iter().try_for_each(|line| writeln!(stderr(), "{line}"))?;
-        if doubts.is_empty() || !asking.answers {
-            return Ok(());
-        }
-        let what = format!("Write {} all the same? yes or no", self.file);
-        asking.value("FILE", None, &what, None, &|answer| match answer {
-            "yes" | "y" => Ok(()),
-            "no" | "n" => Err(Stop.into()),
-            _ => Err(Refusal::of("answer", answer, "yes or no").into()),
-        })
-    }
-
     /// Collects the data from the mode table, the options and, on a terminal, the user's answers.
-    fn data(&self, asking: &Asking) -> anyhow::Result<ModalData> {
+    fn data(&self) -> anyhow::Result<ModalData> {
         let [mut casing, mut disk] = match &self.modes {
             Some(path) => table(path)?,
             None => [Vec::new(), Vec::new()],
@@ -142,7 +136,7 @@ impl NewCommand {
         }
         let first = casing.first().map(|mode| mode.nodal_diameters.to_string());
         let ask = |option, given: &Option<String>, what, usual, key| {
-            asking.value(option, given.as_ref(), what, usual, &|text| number(option, text, key))
+            asked(option, given.as_deref(), what, usual, &|text| number(option, text, key))
         };
         let blades = ask("--blades", &self.blades, "Number of blades", None, keys::BLADES)? as u32;
         let what = "Inner radius of the casing [m, or such as 500mm]";
@@ -154,8 +148,7 @@ impl NewCommand {
             let refused = || Refusal::of("--clearance", format!("{clearance} m"), allowed);
             (clearance < radius_m).then_some(clearance).ok_or_else(|| refused().into())
         };
-        let clearance_m =
-            asking.value("--clearance", self.clearance.as_ref(), what, None, &read)?;
+        let clearance_m = asked("--clearance", self.clearance.as_deref(), what, None, &read)?;
         let (what, usual) = ("Nodal diameters", first.as_deref());
         let nd = ask("--nd", &self.nd, what, usual, keys::DIAMETERS)? as u32;
         for (option, name, modes) in
@@ -164,15 +157,15 @@ impl NewCommand {
             if modes.is_empty() {
                 let what = format!("Frequency of the {name} with {nd} nodal diameters [Hz]");
                 let read = |text: &str| Ok(family(option, &format!("{nd}:{text}:1"))?.frequency_hz);
-                let frequency = asking.value(option, None, &what, None, &read)?;
+                let frequency = asked(option, None, &what, None, &read)?;
                 let what = format!("Modal mass of that mode of the {name} [kg]");
                 let read = |text: &str| Ok(family(option, &format!("{nd}:{frequency}:{text}"))?);
-                modes.push(asking.value(option, None, &what, None, &read)?);
+                modes.push(asked(option, None, &what, None, &read)?);
             }
         }
         let ratio = |option, given: &Option<String>, what, key, modes: &[Family]| {
             let assumed = modes.iter().any(|mode| mode.damping_ratio.is_none());
-            if given.is_none() && assumed && !asking.answers {
+            if given.is_none() && assumed && !stdin().is_terminal() {
                 note(format!("rubscope: {what}: {USUAL_DAMPING} is assumed ({option})"));
             }
             ask(option, given, what, Some(USUAL_DAMPING), key)
@@ -186,8 +179,7 @@ impl NewCommand {
             let speeds = with_typed_unit(text, Quantity::Speed);
             Ok((speed_range("--range", &speeds)?, speeds))
         };
-        let (range_rad_s, speeds) =
-            asking.value("--range", self.range.as_ref(), what, None, &read)?;
+        let (range_rad_s, speeds) = asked("--range", self.range.as_deref(), what, None, &read)?;
         let speed = |text: &String| number("--speed", text, keys::SPEED);
         let speed_rad_s = self.speed.as_ref().map(speed).transpose()?;
         let title =
@@ -251,55 +243,41 @@ fn number(option: &str, text: &str, path: &str) -> anyhow::Result<f64> {
 #[error("nothing is written")]
 struct Stop;
 
-/// Asks the user for missing values if standard input is a terminal.
-struct Asking {
-    answers: bool,
-}
-
-impl Asking {
-    fn new() -> Self {
-        Self { answers: stdin().is_terminal() }
+/// Parses the text `given` with `option` or, without it, an answer of the user to the question
+/// `what`; Enter alone gives `usual`. Repeats the question until the answer parses. If standard input
+/// is no terminal, takes `usual` or fails.
+fn asked<T>(
+    option: &str,
+    given: Option<&str>,
+    what: &str,
+    usual: Option<&str>,
+    read: &dyn Fn(&str) -> anyhow::Result<T>,
+) -> anyhow::Result<T> {
+    let missing =
+        |more: &str| Refusal::because(format!("new: {option} is missing ({what}){more}")).into();
+    let known = if stdin().is_terminal() { given } else { given.or(usual) };
+    if let Some(text) = known {
+        return read(text);
     }
-
-    /// Parses the text `given` with `option` or, without it, an answer to the question `what`;
-    /// Enter alone gives `usual`. Repeats the question until the answer parses. Without a
-    /// terminal, takes `usual` or fails.
-    fn value<T>(
-        &self,
-        option: &'static str,
-        given: Option<&String>,
-        what: &str,
-        usual: Option<&str>,
-        read: &dyn Fn(&str) -> anyhow::Result<T>,
-    ) -> anyhow::Result<T> {
-        let missing = |more: &str| {
-            Refusal::because(format!("new: {option} is missing ({what}){more}")).into()
-        };
-        match (given, usual) {
-            (Some(given), _) => return read(given),
-            (None, Some(usual)) if !self.answers => return read(usual),
-            (None, None) if !self.answers => {
-                return Err(missing("; without a terminal no question is asked"));
-            }
-            _ => {}
+    if !stdin().is_terminal() {
+        return Err(missing("; without a terminal no question is asked"));
+    }
+    let hint = usual.map_or(String::new(), |usual| format!(" (Enter: {usual})"));
+    loop {
+        write!(stderr(), "{what}{hint}: ")?;
+        stderr().flush()?;
+        let mut line = String::new();
+        if stdin().lock().read_line(&mut line)? == 0 {
+            return Err(missing(""));
         }
-        let hint = usual.map_or(String::new(), |usual| format!(" (Enter: {usual})"));
-        loop {
-            write!(stderr(), "{what}{hint}: ")?;
-            stderr().flush()?;
-            let mut line = String::new();
-            if stdin().lock().read_line(&mut line)? == 0 {
-                return Err(missing(""));
-            }
-            let answer = match (line.trim(), usual) {
-                ("", None) => continue,
-                ("", Some(usual)) => usual,
-                (answer, _) => answer,
-            };
-            match read(answer) {
-                Err(error) if !error.is::<Stop>() => say(&format!("{error:#}")),
-                done => return done,
-            }
+        let answer = match (line.trim(), usual) {
+            ("", None) => continue,
+            ("", Some(usual)) => usual,
+            (answer, _) => answer,
+        };
+        match read(answer) {
+            Err(error) if !error.is::<Stop>() => say(&format!("{error:#}")),
+            done => return done,
         }
     }
 }

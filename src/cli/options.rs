@@ -11,7 +11,6 @@ use super::status::{Refusal, note, say};
 use super::words::Words;
 use crate::machine::range_doubt;
 use crate::sheet::number::{tell_in_rpm, with_typed_unit};
-use rubscope_solver::model::Operation;
 use rubscope_solver::scene::{
     Adjustment, CheckedScene, ContactLaw, DEFAULT, ModelSize, Quantity, Scene, SceneError,
     SolverKind,
@@ -75,25 +74,20 @@ pub(super) fn ask_unit(option: &str, text: &str, range: [f64; 2], scene: &Scene)
 
 const HEADING: &str = "Options that change the scene";
 
-/// Which options a command accepts as a range `FROM:TO:COUNT`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Swept {
-    /// Whether `--speed` may be a range.
-    pub speed: bool,
-    /// Whether `--pulse` may be a range.
-    pub pulse: bool,
-}
-
-/// A checked scene, and the ranges given with `--speed` and `--pulse`.
+/// A checked scene, and the ranges that its options give to the keys that the command sweeps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolved {
     /// The scene; a swept key has the first value of its range.
     pub scene: CheckedScene,
-    /// The range of `--speed` \[rad/s\]; a single speed is a range of one value. `None` if the
-    /// option is missing or the command accepts no range.
-    pub speeds: Option<Range>,
-    /// The range of `--pulse` \[N\]; one value and `None` as for `speeds`.
-    pub pulses: Option<Range>,
+    ranges: Vec<(&'static str, Range)>,
+}
+
+impl Resolved {
+    /// Returns the values of a swept key, in its SI unit; a single value is a range of one. `None`
+    /// if its option is missing.
+    pub fn range(&self, key: &str) -> Option<Range> {
+        self.ranges.iter().find(|(swept, _)| *swept == key).map(|(_, range)| *range)
+    }
 }
 
 impl SceneOptions {
@@ -119,7 +113,7 @@ impl SceneOptions {
     /// # Errors
     /// There is no such scene, or a key, value or combination is refused.
     pub fn scene(&self) -> anyhow::Result<CheckedScene> {
-        Ok(self.resolve(Swept::default())?.scene)
+        Ok(self.resolve(&[])?.scene)
     }
 
     /// Notes that a single speed without a unit looks like one in rpm.
@@ -151,11 +145,11 @@ impl SceneOptions {
         }
     }
 
-    /// As [`Self::scene`], with the ranges among the options.
+    /// As [`Self::scene`], where the options of the keys `swept` may be ranges `FROM:TO:COUNT`.
     ///
     /// # Errors
     /// As `scene`, which is checked at both ends of each range.
-    pub fn resolve(&self, swept: Swept) -> anyhow::Result<Resolved> {
+    pub fn resolve(&self, swept: &[&str]) -> anyhow::Result<Resolved> {
         self.apply(read_scene(self.scene.as_deref().unwrap_or(DEFAULT))?, swept)
     }
 
@@ -164,10 +158,10 @@ impl SceneOptions {
     /// # Errors
     /// As `scene`.
     pub fn change(&self, scene: Scene) -> anyhow::Result<CheckedScene> {
-        Ok(self.apply(scene, Swept::default())?.scene)
+        Ok(self.apply(scene, &[])?.scene)
     }
 
-    fn apply(&self, mut scene: Scene, swept: Swept) -> anyhow::Result<Resolved> {
+    fn apply(&self, mut scene: Scene, swept: &[&str]) -> anyhow::Result<Resolved> {
         // What the scene is refused for also without the options has the name of its file.
         let own = scene.clone();
         let refused = || own.checked().and_then(|own| own.slides()).err();
@@ -176,32 +170,24 @@ impl SceneOptions {
             _ => error,
         };
         tell_in_rpm(self.rpm);
-        let (mut speeds, mut pulses) = (None, None);
-        for (option, key, text) in self.named() {
+        let mut ranges = Vec::new();
+        for (option, path, text) in self.named() {
             let Some(text) = text else { continue };
-            let of = keys::find(key)?.quantity();
-            let text = &with_typed_unit(text, of);
-            let range = match key {
-                keys::SPEED if swept.speed => Some(&mut speeds),
-                keys::PULSE if swept.pulse => Some(&mut pulses),
-                _ => None,
-            };
-            match range {
-                Some(range) if text.contains(':') => {
-                    let parsed = Range::parse(option, text, of)?;
-                    if key == keys::SPEED {
-                        ask_unit(option, text, [parsed.from, parsed.to], &scene);
-                    }
-                    *range = Some(parsed);
-                    scene.set(key, &parsed.from.to_string())?;
+            let (key, is_swept) = (keys::find(path)?, swept.contains(&path));
+            let text = with_typed_unit(text, key.quantity());
+            if is_swept && text.contains(':') {
+                let range = Range::parse(option, &text, key.quantity())?;
+                if path == keys::SPEED {
+                    ask_unit(option, &text, [range.from, range.to], &scene);
                 }
-                Some(range) => {
-                    scene.set(key, text)?;
-                    let Operation { speed_rad_s, pulse_n, .. } = scene.operation;
-                    let value = if key == keys::SPEED { speed_rad_s } else { pulse_n };
-                    *range = Some(Range { from: value, to: value, count: 1 });
-                }
-                None => scene.set(key, text)?,
+                scene.set(path, &range.from.to_string())?;
+                ranges.push((path, range));
+                continue;
+            }
+            scene.set(path, &text)?;
+            if is_swept {
+                let value = key.real(&scene);
+                ranges.push((path, Range { from: value, to: value, count: 1 }));
             }
         }
         for assignment in &self.set {
@@ -211,19 +197,17 @@ impl SceneOptions {
             scene.set(key.trim(), text)?;
         }
         let made = scene.make_compatible(|key| self.sets(key));
-        for (key, range) in [(keys::SPEED, speeds), (keys::PULSE, pulses)] {
-            if let Some(range) = range {
-                let mut last = scene.clone();
-                last.set(key, &range.to.to_string())?;
-                last.checked().map_err(in_file)?;
-            }
+        for (key, range) in &ranges {
+            let mut last = scene.clone();
+            last.set(key, &range.to.to_string())?;
+            last.checked().map_err(in_file)?;
         }
         let scene = scene.checked().map_err(in_file)?;
-        if !swept.speed {
+        if !swept.contains(&keys::SPEED) {
             scene.slides().map_err(in_file)?;
         }
         note_adjusted(&made);
-        Ok(Resolved { scene, speeds, pulses })
+        Ok(Resolved { scene, ranges })
     }
 
     /// Returns whether an option sets this key.
@@ -231,11 +215,6 @@ impl SceneOptions {
         let is_named = self.named().into_iter().any(|(_, of, text)| of == key && text.is_some());
         let name = |set: &String| set.split('=').next().is_some_and(|name| name.trim() == key);
         is_named || self.set.iter().any(name)
-    }
-
-    /// Returns the name of every option that sets exactly one key, and that key.
-    pub fn keys() -> [(&'static str, &'static str); 10] {
-        Self::default().named().map(|(option, key, _)| (option, key))
     }
 
     /// Returns the name of every option that sets exactly one key, that key, and the text given

@@ -28,11 +28,6 @@ pub struct OutputOptions {
 }
 
 impl OutputOptions {
-    /// Returns whether the result goes to a file.
-    pub fn has_file(&self) -> bool {
-        self.out.is_some()
-    }
-
     /// Returns the ending of the file, and checks that a file can be written there; `None` without
     /// a file.
     ///

@@ -54,7 +54,7 @@ impl RunCommand {
         }
         let script = RequestedScript::of(&self.at, &scene)?;
         let acts = &script.changes;
-        self.output.ending()?;
+        let has_file = self.output.ending()?.is_some();
         let gaps = if self.gaps { scene.bladed_disk.blades } else { 0 };
         let most = History::most_samples(gaps);
         if self.samples > most {
@@ -67,7 +67,7 @@ impl RunCommand {
         let mut history = History::new(gaps);
         // Both ends are samples, so there is one interval fewer. The smallest gap needs the gaps
         // of all blades, also if they have no columns.
-        let sampling = match self.output.has_file() {
+        let sampling = match has_file {
             true => Sampling { intervals: self.samples - 1, gaps: true },
             false => Sampling::default(),
         };

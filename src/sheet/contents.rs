@@ -6,7 +6,6 @@ use std::io::{Result, Write};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Value, json};
 
-use super::command::{PROGRAM, VERSION};
 use super::line::wrapped;
 use super::number::{per_speed, speed_unit};
 use super::svg;
@@ -176,7 +175,28 @@ impl<'a> Sheet<'a> {
     /// # Errors
     /// The writer failed.
     pub fn write_json(&self, with_time: bool, mut out: &mut dyn Write) -> Result<()> {
-        serde_json::to_writer_pretty(&mut out, &Json { sheet: self, with_time })?;
+        let mut json = serde_json::Serializer::pretty(&mut out);
+        let mut object = json.serialize_map(None)?;
+        let (name, version) = self.schema;
+        object.serialize_entry("schema", &format!("rubscope.{name}/{version}"))?;
+        let command = self.origin.command.clone().flag("--json", true);
+        object.serialize_entry("program", &command.program())?;
+        for part in &self.parts {
+            match part {
+                Part::Fact(name, _) if name == "wall_s" && !with_time => {
+                    object.serialize_entry(name, &Value::Null)?;
+                }
+                Part::Fact(name, value) => object.serialize_entry(name, value)?,
+                Part::List(name, count, entry) => {
+                    object.serialize_entry(name, &Entries(*count, entry))?;
+                }
+                Part::Table { name: Some(name), table, .. } => {
+                    object.serialize_entry(name, table)?;
+                }
+                Part::Line(_) | Part::Table { name: None, .. } => {}
+            }
+        }
+        object.end()?;
         writeln!(out)
     }
 
@@ -199,7 +219,7 @@ impl<'a> Sheet<'a> {
             Picture::Charts(_) => {
                 let mut text = Vec::new();
                 self.write_text(&mut text)?;
-                writeln!(text, "\n{PROGRAM} {VERSION}: {}", origin.command)?;
+                writeln!(text, "\n{}", origin.line())?;
                 svg::write_text(&String::from_utf8_lossy(&text), &origin, out)
             }
         }
@@ -240,38 +260,6 @@ impl<'a> Sheet<'a> {
         }
         let y = Quantity::new("y", label, 1.0);
         Some(Panel::new("", x, y, series))
-    }
-}
-
-/// The JSON report of a sheet.
-struct Json<'a> {
-    sheet: &'a Sheet<'a>,
-    with_time: bool,
-}
-
-impl Serialize for Json<'_> {
-    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut object = out.serialize_map(None)?;
-        let Sheet { schema: (name, version), origin, parts, .. } = self.sheet;
-        object.serialize_entry("schema", &format!("rubscope.{name}/{version}"))?;
-        let command = origin.command.clone().flag("--json", true);
-        object.serialize_entry("program", &command.program())?;
-        for part in parts {
-            match part {
-                Part::Fact(name, _) if name == "wall_s" && !self.with_time => {
-                    object.serialize_entry(name, &Value::Null)?;
-                }
-                Part::Fact(name, value) => object.serialize_entry(name, value)?,
-                Part::List(name, count, entry) => {
-                    object.serialize_entry(name, &Entries(*count, entry))?;
-                }
-                Part::Table { name: Some(name), table, .. } => {
-                    object.serialize_entry(name, table)?;
-                }
-                Part::Line(_) | Part::Table { name: None, .. } => {}
-            }
-        }
-        object.end()
     }
 }
 

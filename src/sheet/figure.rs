@@ -6,10 +6,14 @@ use rubscope_solver::study::figures::Panel;
 /// Returns the data of a panel. If all series have points at the same x, there is one column for x
 /// and one per series; otherwise one row per point, with the name of its series.
 pub fn table(panel: &Panel) -> Table<'_> {
-    if panel.shares_x() { wide(panel) } else { long(panel) }
-}
-
-fn wide(panel: &Panel) -> Table<'_> {
+    if !panel.shares_x() {
+        let headings = ["series".into(), panel.x.column.clone(), panel.y.column.clone()];
+        let rows = panel.series.iter().flat_map(|series| {
+            let row = |&(x, y): &(f64, f64)| vec![series.name.as_str().into(), x.into(), y.into()];
+            series.points.iter().map(row)
+        });
+        return Table::with_rows(headings, rows.collect());
+    }
     let unit = panel.y.column.split_once('_').map_or("", |(_, unit)| unit);
     let names = panel
         .series
@@ -21,15 +25,6 @@ fn wide(panel: &Panel) -> Table<'_> {
         let values = panel.series.iter().map(|series| series.points.get(row).map(|point| point.1));
         std::iter::once(xs[row].0.into()).chain(values.map(TableCell::from)).collect()
     })
-}
-
-fn long(panel: &Panel) -> Table<'_> {
-    let headings = ["series".into(), panel.x.column.clone(), panel.y.column.clone()];
-    let rows = panel.series.iter().flat_map(|series| {
-        let row = |&(x, y): &(f64, f64)| vec![series.name.as_str().into(), x.into(), y.into()];
-        series.points.iter().map(row)
-    });
-    Table::with_rows(headings, rows.collect())
 }
 
 #[cfg(test)]

@@ -8,21 +8,19 @@ use rubscope_solver::scene::{ContactLaw, ModelSize, SolverKind};
 use rubscope_solver::study::figures::{Figure, Panel, Quantity, Series, Style};
 use rubscope_solver::study::precision::{Method, Precision, Reference, Row, Way};
 
-/// Returns the character of a series on the screen, by solver, contact law and model.
-pub fn letter(way: &Way) -> char {
-    let base = match (way.solver, way.contact) {
-        (SolverKind::Event, _) => 'e',
-        (SolverKind::Explicit, ContactLaw::Unilateral) => 'u',
-        (SolverKind::Explicit, ContactLaw::Bilateral) => 'b',
-        (SolverKind::Explicit, ContactLaw::Smooth) => 's',
+/// Returns the character of a series on the screen, and its style in a figure. Letter, digit and
+/// colour follow from solver and contact law; case, digit and size from the model.
+pub fn mark(way: &Way) -> (char, Style) {
+    let (letter, digit, colour) = match (way.solver, way.contact) {
+        (SolverKind::Event, _) => ('e', '2', 0),
+        (SolverKind::Explicit, ContactLaw::Unilateral) => ('u', '1', 1),
+        (SolverKind::Explicit, ContactLaw::Bilateral) => ('b', '2', 5),
+        (SolverKind::Explicit, ContactLaw::Smooth) => ('s', '1', 9),
     };
     match way.model {
-        ModelSize::Rigid => base,
-        ModelSize::Modal => base.to_ascii_uppercase(),
-        ModelSize::Full => match base {
-            'u' | 's' => '1',
-            _ => '2',
-        },
+        ModelSize::Rigid => (letter, Style::Discs(colour, 3)),
+        ModelSize::Modal => (letter.to_ascii_uppercase(), Style::Discs(colour, 5)),
+        ModelSize::Full => (digit, Style::Discs(colour, 7)),
     }
 }
 
@@ -149,7 +147,7 @@ pub fn figure(report: &Precision) -> Option<Figure> {
     for group in placed.chunk_by(|a, b| name(a) == name(b)) {
         let Some(first) = group.first() else { continue };
         let points = group.iter().filter_map(|row| place(row));
-        all.push(Series::new(name(first), style(&first.way), points));
+        all.push(Series::new(name(first), mark(&first.way).1, points));
     }
     let zeros: Vec<_> = zeros.into_iter().filter_map(place).collect();
     if !zeros.is_empty() {
@@ -165,20 +163,4 @@ pub fn figure(report: &Precision) -> Option<Figure> {
 fn name(row: &Row) -> String {
     let law = if row.other_law { ", other law" } else { "" };
     format!("{}{law}", series(&row.way))
-}
-
-/// Returns the style of a series: colour and marker by solver and law, size by model.
-fn style(way: &Way) -> Style {
-    let colour = match (way.solver, way.contact) {
-        (SolverKind::Event, _) => 0,
-        (SolverKind::Explicit, ContactLaw::Unilateral) => 1,
-        (SolverKind::Explicit, ContactLaw::Bilateral) => 5,
-        (SolverKind::Explicit, ContactLaw::Smooth) => 9,
-    };
-    let radius = match way.model {
-        ModelSize::Rigid => 3,
-        ModelSize::Modal => 5,
-        ModelSize::Full => 7,
-    };
-    Style::Discs(colour, radius)
 }

@@ -36,7 +36,6 @@ pub fn sheet<'a>(
 ) -> Sheet<'a> {
     let mut sheet = Sheet::new("run", 1, command, &report.scene);
     let headline = Facts::of(report);
-    let told = headline.sentence(usize::MAX);
     let mut fields = json!(report);
     fields["solver"]["wall_s"] = json!(wall.run_s);
     fields["solver"]["certainty_s"] = json!(wall.certainty_s);
@@ -45,7 +44,7 @@ pub fn sheet<'a>(
         true => json!(format!("{}. {state}", capital(&verdict(&headline)))),
         false => json!(state),
     };
-    fields["outcome"]["history"] = json!(told.history);
+    fields["outcome"]["history"] = json!(headline.sentence(usize::MAX).history);
     if let Some(growth) = headline.growth {
         fields["outcome"]["growth_1_s"] = json!(growth);
     }
@@ -53,7 +52,7 @@ pub fn sheet<'a>(
     if let Some(note) = report.scene.share_note() {
         sheet.fact("notes", [note]);
     }
-    lines_of(report, wall, &headline).into_iter().for_each(|line| sheet.line(line));
+    lines(report, wall, &headline).into_iter().for_each(|line| sheet.line(line));
     let (words, changes) = changes;
     if !changes.is_empty() {
         sheet.line(format!("Changed during the run: {words}."));
@@ -70,11 +69,7 @@ pub fn sheet<'a>(
 }
 
 /// Returns the summary as text, one fact a line.
-pub fn lines(report: &RunReport, wall: Wall) -> Vec<String> {
-    lines_of(report, wall, &Facts::of(report))
-}
-
-fn lines_of(report: &RunReport, wall: Wall, headline: &Facts) -> Vec<String> {
+pub fn lines(report: &RunReport, wall: Wall, headline: &Facts) -> Vec<String> {
     let (scene, machine) = (&report.scene, report.scene.machine());
     let mut lines = Vec::new();
     if !scene.title.is_empty() {

@@ -17,19 +17,11 @@ pub fn nice_step(span: f64, most: usize) -> Option<f64> {
     (step.is_finite() && step > 0.0).then_some(step)
 }
 
-/// Returns the round values in `[low, high]`, at most `most + 1`, and their spacing. There are none
-/// if the range is empty, reversed or not finite.
-pub fn ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
-    spaced(low, high, nice_step(high - low, most.max(1)))
-}
-
-/// As [`ticks`], of whole numbers only.
-pub fn whole_ticks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
-    spaced(low, high, nice_step(high - low, most.max(1)).map(|step| step.max(1.0)))
-}
-
-fn spaced(low: f64, high: f64, step: Option<f64>) -> (Vec<f64>, f64) {
-    let Some(step) = step else { return (Vec::new(), 1.0) };
+/// Returns the round values in `[low, high]`, at most `most + 1`, and their spacing, which is at
+/// least `least`: 1 for whole numbers. There are none if the range is empty, reversed or not finite.
+pub fn ticks(low: f64, high: f64, most: usize, least: f64) -> (Vec<f64>, f64) {
+    let Some(step) = nice_step(high - low, most.max(1)) else { return (Vec::new(), 1.0) };
+    let step = step.max(least);
     let slack = 1e-9 * step;
     let first = ((low - slack) / step).ceil();
     let last = ((high + slack) / step).floor();

@@ -3,7 +3,7 @@
 
 pub use crate::sheet::number::SiScale;
 use crate::sheet::number::{in_shown_unit, in_tenths, per_frequency, per_speed, trimmed};
-pub use crate::sheet::ticks::{nice_step, ticks, whole_ticks};
+pub use crate::sheet::ticks::{nice_step, ticks};
 
 /// The axis of a chart: its range and the prefix of its labels. The default has no range, so that
 /// nothing is drawn on it.
@@ -79,10 +79,10 @@ impl ChartAxis {
     /// logarithmic axis and one of whole numbers, only whole values.
     pub(super) fn ticks(&self, most: usize) -> (Vec<f64>, f64) {
         if !matches!(self.kind, Kind::Plain | Kind::Speeds) {
-            return whole_ticks(self.low, self.high, most);
+            return ticks(self.low, self.high, most, 1.0);
         }
         let unit = if self.kind == Kind::Speeds { self.scale.factor } else { 1.0 };
-        let (values, step) = ticks(self.low / unit, self.high / unit, most);
+        let (values, step) = ticks(self.low / unit, self.high / unit, most, 0.0);
         (values.into_iter().map(|value| value * unit).collect(), step * unit)
     }
 
@@ -212,12 +212,15 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        assert_eq!(ticks(0.0, 500.0, 5), (vec![0.0, 100.0, 200.0, 300.0, 400.0, 500.0], 100.0));
-        assert_eq!(ticks(-1.0, 1.0, 4).0, vec![-1.0, -0.5, 0.0, 0.5, 1.0]);
-        assert_eq!(ticks(0.013, 0.031, 3), (vec![0.02, 0.03], 0.01));
-        assert!(ticks(1.0, 1.0, 5).0.is_empty());
-        assert!(ticks(f64::NAN, 1.0, 5).0.is_empty());
-        assert!(ticks(2.0, 1.0, 5).0.is_empty());
+        assert_eq!(
+            ticks(0.0, 500.0, 5, 0.0),
+            (vec![0.0, 100.0, 200.0, 300.0, 400.0, 500.0], 100.0)
+        );
+        assert_eq!(ticks(-1.0, 1.0, 4, 0.0).0, vec![-1.0, -0.5, 0.0, 0.5, 1.0]);
+        assert_eq!(ticks(0.013, 0.031, 3, 0.0), (vec![0.02, 0.03], 0.01));
+        assert!(ticks(1.0, 1.0, 5, 0.0).0.is_empty());
+        assert!(ticks(f64::NAN, 1.0, 5, 0.0).0.is_empty());
+        assert!(ticks(2.0, 1.0, 5, 0.0).0.is_empty());
     }
 
     #[test]
@@ -274,7 +277,7 @@ mod tests {
         fn ticks_of_any_range_are_few_increasing_and_inside(
             low in -1e12f64..1e12, span in 1e-9f64..1e12, most in 1usize..12,
         ) {
-            let (values, step) = ticks(low, low + span, most);
+            let (values, step) = ticks(low, low + span, most, 0.0);
             prop_assert!(values.len() <= most + 1);
             for pair in values.windows(2) {
                 prop_assert!(pair[1] > pair[0]);

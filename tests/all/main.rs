@@ -118,7 +118,8 @@ fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
 
 /// What the program prints of a run.
 fn told(report: &RunReport) -> String {
-    rubscope::sheet::summary::lines(report, Default::default()).join("\n")
+    let facts = rubscope::sheet::sentence::Facts::of(report);
+    rubscope::sheet::summary::lines(report, Default::default(), &facts).join("\n")
 }
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.

@@ -1,6 +1,6 @@
 //! The view `--branches`: every equilibrium, its stability, and the speeds where branches change.
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::table::{Column, Table, TableCell, columns};
 use rubscope_solver::harmonic::{
@@ -12,7 +12,7 @@ use rubscope_solver::scene::{SceneError, keys};
 pub const BRANCHES: View = View {
     always_damped: false,
     // Rest and sliding on one side exist even if there is no corner to lock in.
-    contact: ViewContact::Rigid(|error| error.is_of(keys::DIAMETERS)),
+    rigid: Some(|error| error.is_of(keys::DIAMETERS)),
     unequal_tips: true,
     ..View::new(
         "branches",

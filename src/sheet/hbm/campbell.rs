@@ -1,6 +1,6 @@
 //! The view `--campbell`: frequencies against speed, engine orders, and the coincidences (30).
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::table::{Column, Table, TableCell, columns};
 use rubscope_solver::harmonic::{Campbell, Coincidence, Line};
@@ -9,7 +9,7 @@ use rubscope_solver::scene::SceneError;
 pub const CAMPBELL: View = View {
     always_damped: false,
     // Frequencies exist without a corner, rigid contact or a harmonic balance.
-    contact: ViewContact::Rigid(|error| !error.is_of("blades")),
+    rigid: Some(|error| !error.is_of("blades")),
     unequal_tips: true,
     out_of_round: true,
     ..View::new(

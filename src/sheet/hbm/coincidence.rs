@@ -1,7 +1,7 @@
 //! The view `--coincidence`: growth rate of rest near the coincidences, and the limit cycle of
 //! blades in contact, against speed.
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::{per_speed, short, speed, speed_unit};
 use crate::sheet::table::{Column, Table, columns};
@@ -10,7 +10,7 @@ use rubscope_solver::scene::SceneError;
 
 /// The view `--coincidence`.
 pub const COINCIDENCE: View = View {
-    contact: ViewContact::OfScene,
+    rigid: None,
     out_of_round: true,
     ..View::new(
         "coincidence",

@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table, TableCell};
@@ -15,7 +15,7 @@ use rubscope_solver::scene::{SceneError, keys};
 pub const COMPLIANCE: View = View {
     one_speed: true,
     // The compliance belongs to the structures, with or without a preload.
-    contact: ViewContact::Rigid(|error| error.is_of(keys::CLEARANCE)),
+    rigid: Some(|error| error.is_of(keys::CLEARANCE)),
     out_of_round: true,
     ..View::new(
         "compliance",

@@ -1,7 +1,7 @@
 //! The view `--forced`: the wave that an out-of-round casing drives while all blades rub its
 //! lining.
 
-use super::view::{Request, View, ViewContact};
+use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::count;
 use crate::sheet::table::{Column, Table, columns};
@@ -9,7 +9,7 @@ use rubscope_solver::harmonic::{Forced, Lining};
 use rubscope_solver::scene::{ContactLaw, SceneError, keys};
 
 pub const FORCED: View = View {
-    contact: ViewContact::OfScene,
+    rigid: None,
     out_of_round: true,
     ..View::new(
         "forced",

@@ -2,7 +2,7 @@
 //! limit cycles; with a clearance they are locks and whirl, with the least stiffness that holds a
 //! lock.
 
-use super::view::{Request, View, ViewContact, all_speeds};
+use super::view::{Request, View, all_speeds};
 use crate::sheet::Sheet;
 use crate::sheet::number::{short, speed};
 use crate::sheet::table::{Column, Table, TableCell, columns};
@@ -13,7 +13,7 @@ use rubscope_solver::harmonic::{
 use rubscope_solver::scene::{ContactLaw, SceneError, keys};
 
 pub const SMOOTH: View = View {
-    contact: ViewContact::OfScene,
+    rigid: None,
     ..View::new(
         "smooth",
         "View: steady states of blades on a lining (solver.contact = \"smooth\"): rest, limit \

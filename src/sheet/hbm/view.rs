@@ -19,8 +19,10 @@ pub struct View {
     pub always_damped: bool,
     /// Whether the view is at a single speed, by default that of the scene.
     pub one_speed: bool,
-    /// Contact of the view.
-    pub contact: ViewContact,
+    /// `None` for the contact law of the scene. Otherwise the view is for rigid contact and a corner
+    /// in which it can lock: if there is no lock for a reason that the function accepts, the view is
+    /// computed nevertheless; otherwise it is refused.
+    pub rigid: Option<fn(&SceneError) -> bool>,
     /// Whether the view is derived for blades of unequal length.
     pub unequal_tips: bool,
     /// Whether the view is derived for a casing out of round.
@@ -42,22 +44,12 @@ impl View {
             help,
             always_damped: true,
             one_speed: false,
-            contact: ViewContact::Rigid(|_| false),
+            rigid: Some(|_| false),
             unequal_tips: false,
             out_of_round: false,
             fill,
         }
     }
-}
-
-/// Contact law of a view.
-#[derive(Debug)]
-pub enum ViewContact {
-    /// The contact law of the scene.
-    OfScene,
-    /// Rigid contact, and a corner in which it can lock. If there is no lock for a reason that the
-    /// function accepts, the view is computed nevertheless; otherwise it is refused.
-    Rigid(fn(&SceneError) -> bool),
 }
 
 /// Input of a view.
@@ -90,7 +82,7 @@ impl<'a> Request<'a> {
         command: CommandLine,
     ) -> Result<Sheet<'static>, SceneError> {
         self.refuse_uneven(view)?;
-        if let ViewContact::Rigid(tolerates) = view.contact {
+        if let Some(tolerates) = view.rigid {
             self.machine = self.scene.machine().with_lining(None).under_load();
             if let Err(error) = self.lock()
                 && !tolerates(&error)

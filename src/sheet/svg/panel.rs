@@ -3,7 +3,7 @@
 
 use super::paper::{LEFT, LINE, Place, circle, colour, line, rectangle, strokes, text, width_of};
 use crate::sheet::number::short;
-use crate::sheet::ticks::{log_ticks, power_of_ten, scientific, ticks, whole_ticks};
+use crate::sheet::ticks::{log_ticks, power_of_ten, scientific, ticks};
 use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
 
 /// Height of a panel's title \[px\].
@@ -235,8 +235,8 @@ impl<'a> Scale<'a> {
     fn ticks(&self) -> Vec<(f64, String)> {
         let ticks = |most| match self.quantity {
             Quantity { log: true, .. } => log_ticks(self.low, self.high, most),
-            Quantity { whole: true, .. } => whole_ticks(self.low, self.high, most).0,
-            _ => ticks(self.low, self.high, most).0,
+            Quantity { whole: true, .. } => ticks(self.low, self.high, most, 1.0).0,
+            _ => ticks(self.low, self.high, most, 0.0).0,
         };
         let label = |tick: f64| (self.place(tick), self.label(tick));
         let labels = |most| ticks(most).into_iter().map(label).collect::<Vec<_>>();

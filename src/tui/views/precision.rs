@@ -8,7 +8,7 @@ use super::chart::Chart;
 use super::panel::{ViewArea, ViewPanel, message, not_yet, paragraph};
 use crate::sheet::Sheet;
 use crate::sheet::number::count;
-use crate::sheet::precision::{letter, place, reference_words, series, sheet};
+use crate::sheet::precision::{mark, place, reference_words, series, sheet};
 use crate::tui::app::App;
 use crate::tui::axis::{ChartAxis, readable};
 use crate::tui::text::print;
@@ -63,7 +63,7 @@ impl ViewPanel for PrecisionView {
         chart.points.extend(points.iter().map(|((x, y), row)| {
             let (sign, role) = match row.is_wrong() {
                 true => ('!', Role::Trouble),
-                false => (letter(&row.way), hue(&row.way)),
+                false => (mark(&row.way).0, hue(&row.way)),
             };
             (*x, *y, sign, look.style(role))
         }));
@@ -112,7 +112,7 @@ fn note(report: &Precision) -> (String, Role) {
 
 /// Names the series of the letters on the chart.
 fn legend<'a>(rows: impl Iterator<Item = &'a Row>) -> String {
-    let name = |row: &Row| format!("{} {}", letter(&row.way), series(&row.way));
+    let name = |row: &Row| format!("{} {}", mark(&row.way).0, series(&row.way));
     let mut names: Vec<String> = rows.map(name).collect();
     names.dedup();
     names.join(", ")
@@ -122,6 +122,6 @@ fn legend<'a>(rows: impl Iterator<Item = &'a Row>) -> String {
 fn described(row: &Row) -> String {
     let step = row.way.step_s.map_or(String::new(), |step| format!(", h {}", readable(step, "s")));
     let error = row.error_final.map_or("-".to_string(), |error| format!("{error:.2e}"));
-    let (letter, series) = (letter(&row.way), series(&row.way));
+    let ((letter, _), series) = (mark(&row.way), series(&row.way));
     format!("{letter} {series}{step}: error {error} in {}", readable(row.wall_s, "s"))
 }
