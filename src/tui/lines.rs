@@ -91,8 +91,7 @@ pub fn lines(
             write!(out, "> ")?;
         }
         out.flush()?;
-        let line = read(input).context("cannot read standard input")?;
-        let Some(line) = line else { return Ok(()) };
+        let Some(line) = read(input).context("cannot read standard input")? else { return Ok(()) };
         let goes_on = match line {
             Ok(line) if line.trim().is_empty() || line.trim_start().starts_with('#') => true,
             Ok(line) => lines.answer(line.trim(), out)?,

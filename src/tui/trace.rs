@@ -63,8 +63,8 @@ impl Marks {
         }
         if changed {
             let what = match log.active_set {
-                ActiveSet::Nothing => Happening::Release(self.active_set),
-                now => Happening::Contact(self.active_set, now),
+                ActiveSet::Nothing => Happening::Release(log.before),
+                now => Happening::Contact(log.before, now),
             };
             new.push(Mark { t_s: log.since, what });
         }

@@ -120,6 +120,8 @@ impl Hold {
 pub struct ContactLog {
     /// Sides in contact now.
     pub active_set: ActiveSet,
+    /// Sides in contact until `since`.
+    pub before: ActiveSet,
     /// Start of the present `active_set` \[s\].
     pub since: f64,
     /// Longest hold of a corner before the present contact; `None` if there was none.
@@ -150,7 +152,7 @@ impl ContactLog {
                 let sides = self.active_set;
                 self.longest_hold = Some(Hold { sides, from: self.since, until: last, ended: t });
             }
-            self.active_set = active_set;
+            self.before = std::mem::replace(&mut self.active_set, active_set);
             self.since = t;
         }
         if active_set == ActiveSet::Nothing {

@@ -1,5 +1,6 @@
 //! Finds the next change of contact of a motion to round-off, independent of the zoom of the page.
 
+use super::page::longest_sample;
 use rubscope_solver::motion::{GoOn, Scripted};
 
 /// Largest number of search steps.
@@ -7,10 +8,10 @@ const MOST_STEPS: usize = 20_000;
 /// Largest number of bisections of the step that has the change; doubles need no more.
 const MOST_HALVINGS: usize = 80;
 
-/// Returns the time of the next change of contact up to `end` \[s\], searched in steps of `step`
-/// seconds and refined by bisection. `None` if no change comes within the search, the motion ends
+/// Returns the time of the next change of contact up to `end` \[s\], searched in steps that follow
+/// the wave and refined by bisection. `None` if no change comes within the search, the motion ends
 /// or fails before it, its verdict is already proved, or `go_on` stops the search.
-pub fn next_change(from: &Scripted, step: f64, end: f64, go_on: GoOn<'_>) -> Option<f64> {
+pub fn next_change(from: &Scripted, end: f64, go_on: GoOn<'_>) -> Option<f64> {
     let log = from.motion.contacts();
     let before = (log.active_set, log.impact_count);
     let changed = |at: &Scripted| {
@@ -18,7 +19,7 @@ pub fn next_change(from: &Scripted, step: f64, end: f64, go_on: GoOn<'_>) -> Opt
         (log.active_set, log.impact_count) != before
     };
     let mut at = from.clone();
-    let mut now = at.motion.t_s();
+    let (mut now, step) = (at.motion.t_s(), longest_sample(&at.motion));
     for _ in 0..MOST_STEPS {
         let decided = at.motion.over() || at.motion.final_verdict().is_some();
         if now >= end || (decided && at.is_through()) {

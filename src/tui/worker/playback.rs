@@ -148,17 +148,16 @@ impl Playback {
     fn jump(&mut self, number: u64) {
         let (began, limit) = (Instant::now(), self.time_limit.max(JUMP_LIMIT));
         let go_on = || began.elapsed() < limit;
-        let mut marks = Marks::from(self.head.at.motion.contacts());
-        let end = self.films.own.plan.end_s;
-        let sample = longest_sample(&self.head.at.motion);
-        let found = next_change(&self.head.at, sample, end, &go_on);
-        if let Some(until) = found {
+        self.met = (number, None);
+        if let Some(until) = next_change(&self.head.at, self.films.own.plan.end_s, &go_on) {
+            let mut marks = Marks::from(self.head.at.motion.contacts());
             self.head.play(until, &go_on);
-            self.t = until;
+            // The step of the change, which may be a round-off later.
+            self.t = self.head.at.motion.t_s();
             self.head.show();
+            marks.look(self.head.at.motion.contacts());
+            self.met.1 = marks.seen.last().copied();
         }
-        marks.look(self.head.at.motion.contacts());
-        self.met = (number, marks.seen.last().filter(|_| found.is_some()).copied());
     }
 
     /// Reports that a frame was drawn: the wave may turn further.

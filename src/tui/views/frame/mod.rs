@@ -222,16 +222,14 @@ fn wheel(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let sign = |(x, y): (f64, f64), sign, role| (x, y, sign, look.style(role));
     let marked = touching.iter().filter(|_| all);
     chart.points = marked.map(|blade| sign(tip(*blade), mark, Role::Contact)).collect();
-    let cursor = cursor.map(|cursor| (x.at(cursor.across), y.at(cursor.up)));
-    chart.points.extend(cursor.map(|place| sign(place, '+', Role::Focus)));
+    chart.points.extend(cursor.map(|at| sign((x.at(at.across), y.at(at.up)), '+', Role::Focus)));
     let Some(mut plot) = chart.draw(app, buffer, at) else { return };
     // If most blades touch, their numbers say nothing useful.
     let named = if 2 * touching.len() > polygon.blades as usize { &[][..] } else { &touching };
     for blade in named.iter().copied().take(MOST_NUMBERS) {
         let (sin, cos) = angle_of(blade).sin_cos();
         let (name, style) = (blade.to_string(), look.style(Role::Contact));
-        let mut places = NUMBERS.into_iter();
-        let _ = places.any(|part| plot.free_label((part * cos, part * sin), &name, style));
+        _ = NUMBERS.into_iter().any(|part| plot.free_label((part * cos, part * sin), &name, style));
     }
 }
 
