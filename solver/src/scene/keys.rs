@@ -285,23 +285,19 @@ pub fn find_varied(path: &str) -> Result<&'static Key, SceneError> {
     if path == CLEARANCE { Ok(&CLEARANCE_KEY) } else { find(path) }
 }
 
-/// Returns the error for an unknown key; it lists the keys of the same table.
+/// Returns the error for an unknown key; it lists the keys of the same table, or all tables.
 pub(super) fn unknown(path: &str) -> SceneError {
     if path.is_empty() {
         return SceneError::NoKey;
     }
-    let table = path.split_once('.').map_or("", |(table, _)| table);
-    let of_table = |key: &&Key| key.path.split_once('.').map_or("", |(t, _)| t) == table;
-    let mut names: Vec<&str> = KEYS.iter().filter(of_table).map(|key| key.path).collect();
-    if table.is_empty() || names.is_empty() {
-        names = vec!["schema", "title", "note"];
-        for key in KEYS {
-            if let Some((table, _)) = key.path.split_once('.')
-                && !names.contains(&table)
-            {
-                names.push(table);
-            }
-        }
+    let table_of = |key: &Key| key.path.split_once('.').map(|(table, _)| table);
+    let table = path.split_once('.').map_or(path, |(table, _)| table);
+    let of_table = KEYS.iter().filter(|key| table_of(key) == Some(table));
+    let mut names: Vec<String> = of_table.map(|key| key.path.into()).collect();
+    if names.is_empty() {
+        let all = |key| table_of(key).map_or(key.path.into(), |table| format!("{table}.*"));
+        names = KEYS.iter().map(all).collect();
+        names.dedup();
     }
     SceneError::UnknownKey { key: path.to_string(), allowed: names.join(", ") }
 }
