@@ -384,7 +384,8 @@ mod tests {
     fn what_was_computed_of_a_motion_is_forgotten_with_it_and_its_studies_stay() {
         let scene = Scene::base().checked().unwrap();
         let mut run = Run::of(&scene, &scene.machine());
-        run.latest.results.found.spectrum = Some(Spectrum::of(&scene, &[]).into());
+        run.latest.results.found.spectrum =
+            Some(Spectrum::of(&scene, (0.0, 1.0, Vec::new())).into());
         for begins in [false, true] {
             run.latest.results.sensitive = Sensitive::GivenUp;
             if begins {

@@ -14,8 +14,7 @@ pub struct FilmPlan {
     pub scene: CheckedScene,
     /// The live changes and pulses.
     pub script: Script,
-    /// Start of the last part, whose spectrum is shown \[s\]: the latest change, or the
-    /// end before it was extended.
+    /// Start of the last part \[s\]: the latest change, or the end before it was extended.
     pub from_s: f64,
     /// End of the run \[s\].
     pub end_s: f64,

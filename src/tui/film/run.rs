@@ -158,17 +158,19 @@ impl Film {
         }
     }
 
-    /// Computes `u_c` and `u_s` of the casing at equal intervals after the start of the last part
-    /// \[m\], as far as `go_on` lets it.
-    pub fn signal(&self, go_on: GoOn<'_>) -> Vec<[f64; 2]> {
-        let FilmPlan { from_s, end_s, .. } = self.plan;
-        let mut at = self.before(from_s).unwrap_or(&self.ahead).clone();
-        let interval = (end_s - from_s) / f64::from(SAMPLES);
+    /// Computes `u_c` and `u_s` of the casing \[m\] up to the end of the complete film, as far as
+    /// `go_on` lets it: over the last part, or over its end if the interval between two samples
+    /// would exceed `longest` \[s\]. Returns the start and the interval \[s\] too.
+    pub fn signal(&self, longest: f64, go_on: GoOn<'_>) -> (f64, f64, Vec<[f64; 2]>) {
+        let end = self.ahead.motion.t_s().min(self.plan.end_s);
+        let interval = longest.min((end - self.plan.from_s) / f64::from(SAMPLES));
+        let begin = end - f64::from(SAMPLES) * interval;
+        let mut at = self.before(begin).unwrap_or(&self.ahead).clone();
         let sample = |k| {
-            let reached = at.advance_while(from_s + f64::from(k) * interval, go_on);
+            let reached = at.advance_while(begin + f64::from(k) * interval, go_on);
             (reached == Ok(true)).then(|| at.motion.state().u)
         };
-        (1..=SAMPLES).map_while(sample).collect()
+        (begin, interval, (1..=SAMPLES).map_while(sample).collect())
     }
 
     /// Returns the latest known motion at or before `t` \[s\].

@@ -1,13 +1,17 @@
-//! Amplitude spectrum of the casing motion over a run: Hann window, then a Fourier sum for each line.
+//! Amplitude spectrum of the casing motion at the end of a run: Hann window, then a Fourier sum for
+//! each line.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use crate::tui::axis::round_out;
+use crate::tui::axis::{readable, round_out};
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
 
 /// Ends of the amplitude axis, as powers of ten of a metre.
 pub const DECADES: (f64, f64) = (-10.0, -3.0);
+/// Half the rate of the samples, in ends of the frequency axis. What impacts excite above it would
+/// appear as lines below, so it is where little is left.
+const ROOM: f64 = 8.0;
 
 /// Amplitudes at equally spaced angular frequencies, from 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,18 +26,23 @@ pub struct Spectrum {
     pub highest: f64,
     /// The lines on the axis; its labels have SI units.
     pub panel: Panel,
+    /// What it is computed from: `0.000 s to 100.0 ms, Hann window`.
+    pub note: String,
 }
 
 impl Spectrum {
-    /// Computes the spectrum of samples of `u_c` and `u_s` \[m\] at equal intervals over the run of
-    /// a scene. Empty for fewer than 8 samples.
-    pub fn of(scene: &Scene, signal: &[[f64; 2]]) -> Self {
-        let of = |place: usize| {
-            let samples: Vec<f64> =
-                signal.iter().map(|pair| pair.get(place).copied().unwrap_or(0.0)).collect();
-            amplitudes_of(samples)
-        };
-        let (resolution, highest) = (TAU / scene.solver.end_s, highest(scene));
+    /// Returns the longest interval between two samples of the motion of a scene \[s\].
+    pub fn longest_interval(scene: &Scene) -> f64 {
+        PI / (ROOM * highest(scene))
+    }
+
+    /// Computes the spectrum of samples of `u_c` and `u_s` \[m\] in the motion of a scene, from
+    /// their start and interval \[s\]. Empty for fewer than 8 samples.
+    pub fn of(scene: &Scene, (begin, interval, signal): (f64, f64, Vec<[f64; 2]>)) -> Self {
+        let length = signal.len() as f64 * interval;
+        let [from, to] = [begin, begin + length].map(|t| readable(t, "s"));
+        let of = |place: usize| amplitudes_of(signal.iter().map(|pair| pair[place]).collect());
+        let (resolution, highest) = (TAU / length, highest(scene));
         let (cosine, sine) = (of(0), of(1));
         let least = 10_f64.powf(DECADES.0);
         let series = |number, label, amplitudes: &[f64]| {
@@ -44,7 +53,8 @@ impl Spectrum {
         let series = vec![series(0, "u_c", &cosine), series(1, "u_s", &sine)];
         let x = Quantity::new("frequency_rad_s", "frequency [rad/s]", 1.0);
         let panel = Panel::new("", x, Quantity::log("u_m", "amplitude [m]"), series);
-        Self { resolution, cosine, sine, highest, panel }
+        let note = format!("{from} to {to}, Hann window");
+        Self { resolution, cosine, sine, highest, panel, note }
     }
 }
 
@@ -90,14 +100,14 @@ mod tests {
 
     #[test]
     fn a_sine_on_a_line_shows_its_frequency_and_amplitude() {
-        let signal: Vec<[f64; 2]> = (1..=2048)
+        let signal = (1..=2048)
             .map(|k| {
                 let t = 0.1 * f64::from(k) / 2048.0;
                 let (sin, cos) = (TAU * 240.0 * t).sin_cos();
                 [3e-4 * cos, 1e-4 * sin]
             })
             .collect();
-        let spectrum = Spectrum::of(&Scene::base(), &signal);
+        let spectrum = Spectrum::of(&Scene::base(), (0.0, 0.1 / 2048.0, signal));
         let line = (TAU * 240.0 / spectrum.resolution).round() as usize;
         assert_eq!(line, 24);
         // With a Hann window, a sine at a line keeps its amplitude exactly.
@@ -108,7 +118,8 @@ mod tests {
 
     #[test]
     fn signals_that_are_no_numbers_have_no_spectrum() {
-        assert!(Spectrum::of(&Scene::base(), &[[f64::NAN, 0.0]; 64]).cosine.is_empty());
-        assert!(Spectrum::of(&Scene::base(), &[]).cosine.is_empty());
+        for signal in [vec![[f64::NAN, 0.0]; 64], Vec::new()] {
+            assert!(Spectrum::of(&Scene::base(), (0.0, 1.0, signal)).cosine.is_empty());
+        }
     }
 }

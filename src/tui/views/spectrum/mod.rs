@@ -1,4 +1,4 @@
-//! View 6: the spectrum of the casing motion over the whole run, and the Campbell diagram, which
+//! View 6: the spectrum of the casing motion at the end of the run, and the Campbell diagram, which
 //! shows where frequencies coincide.
 
 pub mod lines;
@@ -19,8 +19,6 @@ use rubscope_solver::study::figures::{Figure, Panel, Quantity};
 
 /// Number of parts of the speed axis in which the Campbell lines are drawn.
 const SPEEDS: u32 = 60;
-/// What the spectrum is computed from.
-const NOTE: &str = "whole run, Hann window";
 
 /// The view of the spectrum, above the Campbell diagram.
 pub struct SpectrumView;
@@ -49,7 +47,7 @@ impl ViewPanel for SpectrumView {
             let label = format!("frequency [{}]", frequency_unit()).into();
             let own = spectrum.panel.clone();
             let x = Quantity { label, factor: per_frequency(1.0), ..own.x };
-            Figure::new(title.clone(), NOTE, vec![Panel { x, ..own }])
+            Figure::new(title.clone(), &spectrum.note, vec![Panel { x, ..own }])
         });
         Some(sheet)
     }
@@ -73,8 +71,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let quiet = look.style(Role::Quiet);
     let unit = (format!("m by {}", frequency_unit()), quiet);
     let Some(spectrum) = app.results().found.spectrum.as_deref() else {
-        let legend = [unit, (NOTE.to_string(), quiet)];
-        return message(app, buffer, at, ("spectrum", &legend), not_yet(app));
+        return message(app, buffer, at, ("spectrum", &[unit]), not_yet(app));
     };
     let x = ChartAxis::frequencies(0.0, spectrum.highest);
     let cursor = app.cursor_in(ViewId::Spectrum).map(|at| x.at(at.across));
@@ -82,7 +79,7 @@ fn amplitudes(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let mut chart = Chart::new("spectrum", x, ChartAxis::powers(DECADES.0, DECADES.1, None));
     chart.legend = vec![unit];
     chart.legend.extend(legend(look, &spectrum.panel).into_iter().flatten());
-    chart.legend.push((NOTE.to_string(), quiet));
+    chart.legend.push((spectrum.note.clone(), quiet));
     chart.reading = cursor.and_then(|frequency| reading(spectrum, frequency));
     (chart.marks, chart.read, chart.curves) = (&marks, cursor, curves(look, &spectrum.panel));
     chart.draw(app, buffer, at);

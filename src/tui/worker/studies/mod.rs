@@ -121,7 +121,7 @@ impl Study for LockedStudy {
     }
 }
 
-/// The spectrum of the casing's motion in the last part of the run.
+/// The spectrum of the casing's motion at the end of the run.
 #[derive(Debug)]
 struct SpectrumStudy;
 
@@ -140,8 +140,9 @@ impl Study for SpectrumStudy {
         let (scene, film) = (given.order.scene.clone(), given.run.clone());
         Job::by(move |to, go_on| {
             let began = Instant::now();
-            let signal = film.signal(&|| go_on() && began.elapsed() < FORECAST_LIMIT);
-            _ = to.send(Spectrum::of(&scene, &signal));
+            let go_on = || go_on() && began.elapsed() < FORECAST_LIMIT;
+            let signal = film.signal(Spectrum::longest_interval(&scene), &go_on);
+            _ = to.send(Spectrum::of(&scene, signal));
         })
     }
 }
