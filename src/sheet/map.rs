@@ -47,7 +47,7 @@ pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
 const CELLS: [Column<'_, Cell>; 3] = [
     ("verdict", |cell| cell.verdict.as_ref().into()),
     ("sensitive", |cell| (cell.doubt == Doubt::Sensitive).into()),
-    ("depends_on_step", |cell| (cell.doubt == Doubt::Step).into()),
+    ("depends_on_step", |cell| cell.depends_on_step().into()),
 ];
 
 /// Returns the command that computes this map, all of its shares at once.

@@ -168,10 +168,12 @@ fn parse_row(record: &csv::StringRecord, plan: &MapPlan) -> Option<(usize, Cell)
         return None;
     }
     let verdict = record.get(3)?.parse().ok()?;
-    let doubt = match (record.get(4)?.parse().ok()?, record.get(5)?.parse().ok()?) {
-        (true, _) => Doubt::Sensitive,
-        (false, true) => Doubt::Step,
-        (false, false) => Doubt::None,
+    let doubt = match (record.get(4)?, record.get(5)?) {
+        ("true", "") => Doubt::Sensitive,
+        ("false", "true") => Doubt::Step,
+        ("false", "false") => Doubt::None,
+        ("false", "") => Doubt::Unexamined,
+        _ => return None,
     };
     Some((index, Cell { verdict, doubt }))
 }

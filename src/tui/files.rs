@@ -40,8 +40,7 @@ impl FileJob {
     /// Writes the file, completely or not at all. Replaces regular files only; anything else is not
     /// opened.
     pub fn run(&self) -> FileResult {
-        let kind = std::fs::metadata(&self.path);
-        match kind {
+        match std::fs::metadata(&self.path) {
             Ok(kind) if kind.is_dir() => return FileResult::Failed("it is a directory".into()),
             Ok(kind) if !kind.is_file() => {
                 return FileResult::Failed("it is a pipe or a device, not a file".into());

@@ -115,13 +115,7 @@ fn read(input: &mut dyn BufRead) -> Result<Option<Result<String, &'static str>>,
         return Ok(None);
     }
     if !bytes.ends_with(b"\n") && bytes.len() as u64 == most {
-        // Skip the rest of the line.
-        while !bytes.ends_with(b"\n") {
-            bytes.clear();
-            if input.take(most).read_until(b'\n', &mut bytes)? == 0 {
-                break;
-            }
-        }
+        input.skip_until(b'\n')?;
         return Ok(Some(Err("a line of more than 1000 bytes")));
     }
     Ok(Some(String::from_utf8(bytes).map_err(|_| "a line that is not UTF-8")))
@@ -192,8 +186,9 @@ impl Lines {
         }
         match (first, rest.trim()) {
             ("help" | "?", words) => return self.help(words),
-            ("scene" | "scenes", "") => return self.list("scene"),
-            ("lesson" | "lessons", "") => return self.list("lesson"),
+            ("scene" | "scenes" | "lesson" | "lessons", "") => {
+                return self.list(first.trim_end_matches('s'));
+            }
             _ => {}
         }
         let Found { command, what, .. } = match words::only(&self.app, line) {
@@ -240,9 +235,8 @@ impl Lines {
                     return Reply::Refused(self.app.status.take().unwrap_or_default());
                 }
             }
-            Ok(Effect::None) => {}
             // Effects on the screen are ignored.
-            Ok(Effect::Suspend | Effect::Redraw | Effect::Mouse(_) | Effect::FindScenes(_)) => {}
+            Ok(_) => {}
         }
         if let Some(knob) = knob {
             let text = format!("{} is {}: {}", knob.label, knob.text(&self.app.scene), knob.does);
@@ -250,8 +244,7 @@ impl Lines {
         }
         match std::mem::replace(&mut self.app.dialogue.mode, InputMode::Main) {
             InputMode::Main => Reply::Done(doubt),
-            InputMode::Palette("scene ", _) => self.list("scene"),
-            InputMode::Palette("lesson ", _) => self.list("lesson"),
+            InputMode::Palette(word @ ("scene " | "lesson "), _) => self.list(word.trim_end()),
             _ => Reply::Refused(format!("{what} needs a screen, or more words; help")),
         }
     }

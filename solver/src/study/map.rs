@@ -145,7 +145,8 @@ impl MapPlan {
         let doubt = match certainty {
             Certainty { sensitive: true, .. } => Doubt::Sensitive,
             Certainty { depends_on_step: Some(true), .. } => Doubt::Step,
-            _ => Doubt::None,
+            Certainty { depends_on_step: Some(false), .. } => Doubt::None,
+            _ => Doubt::Unexamined,
         };
         Some(Cell { verdict: reached.verdict, doubt })
     }
@@ -220,25 +221,33 @@ pub struct Cell {
 /// What alters the verdict of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
-    /// Nothing that was examined.
+    /// Neither a tiny change nor another time step.
     None,
-    /// A tiny change of the run.
+    /// A tiny change of the run; another time step was not examined.
     Sensitive,
-    /// Another time step; not examined for a sensitive cell.
+    /// Another time step.
     Step,
+    /// Nothing that was examined, which another time step was not: the solver has none.
+    Unexamined,
 }
 
 impl Cell {
     /// Creates a cell whose verdict is not doubtful.
     #[must_use]
     pub const fn of(verdict: Verdict) -> Self {
-        Self { verdict, doubt: Doubt::None }
+        Self { verdict, doubt: Doubt::Unexamined }
     }
 
     /// Returns whether the verdict is sensitive or depends on the time step.
     #[must_use]
     pub fn is_doubtful(self) -> bool {
-        self.doubt != Doubt::None
+        matches!(self.doubt, Doubt::Sensitive | Doubt::Step)
+    }
+
+    /// Returns whether the verdict depends on the time step; `None` if that was not examined.
+    #[must_use]
+    pub fn depends_on_step(&self) -> Option<bool> {
+        matches!(self.doubt, Doubt::None | Doubt::Step).then_some(self.doubt == Doubt::Step)
     }
 }
 
