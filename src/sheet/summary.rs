@@ -30,11 +30,11 @@ const ROUND_OFF: f64 = 1e-13;
 pub fn sheet<'a>(
     report: &RunReport,
     wall: Wall,
-    changes: (String, Vec<Value>),
+    (words, changes): (String, Vec<Value>),
     history: &'a History,
     command: CommandLine,
 ) -> Sheet<'a> {
-    let mut sheet = Sheet::new("run", 1, command, &report.scene);
+    let mut sheet = Sheet::new("run", 1, command.clone(), &report.scene);
     let headline = Facts::of(report);
     let mut fields = json!(report);
     fields["solver"]["wall_s"] = json!(wall.run_s);
@@ -52,8 +52,7 @@ pub fn sheet<'a>(
     if let Some(note) = report.scene.share_note() {
         sheet.fact("notes", [note]);
     }
-    lines(report, wall, &headline).into_iter().for_each(|line| sheet.line(line));
-    let (words, changes) = changes;
+    lines(report, wall, &headline, command).into_iter().for_each(|line| sheet.line(line));
     if !changes.is_empty() {
         sheet.line(format!("Changed during the run: {words}."));
         sheet.fact("changes", changes);
@@ -68,8 +67,8 @@ pub fn sheet<'a>(
     sheet
 }
 
-/// Returns the summary as text, one fact a line.
-pub fn lines(report: &RunReport, wall: Wall, headline: &Facts) -> Vec<String> {
+/// Returns the summary as text, one fact a line; `command` is that of the run.
+pub fn lines(report: &RunReport, wall: Wall, facts: &Facts, command: CommandLine) -> Vec<String> {
     let (scene, machine) = (&report.scene, report.scene.machine());
     let mut lines = Vec::new();
     if !scene.title.is_empty() {
@@ -95,16 +94,17 @@ pub fn lines(report: &RunReport, wall: Wall, headline: &Facts) -> Vec<String> {
         lines.push("Blade angles in the phase of the gap are neglected (linearised).".into());
     }
     lines.push(String::new());
-    let [state, _] = headline.forms();
-    lines.push(format!("Verdict: {}. {state}", verdict(headline)));
-    lines.extend(headline.sentence(usize::MAX).history);
+    let [state, _] = facts.forms();
+    lines.push(format!("Verdict: {}. {state}", verdict(facts)));
+    lines.extend(facts.sentence(usize::MAX).history);
     lines.extend(report.outcome.message.as_ref().map(|message| format!("Reason: {message}.")));
     let outcome = &report.outcome;
     let doubtful = outcome.sensitive == Some(true)
         || outcome.depends_on_step == Some(true)
         || outcome.by_events.is_some();
     if doubtful && report.solver.steps_skipped.is_some_and(|skipped| skipped > 0) {
-        lines.push("To audit this run, take each of its steps: rubscope run --plain.".into());
+        let audit = command.flag("--plain", true);
+        lines.push(format!("To audit this run, take each of its steps: {audit}"));
     }
     if let Some(t_s) = report.impacts_in_one_step_at_s {
         lines.push(format!("They hit at {}; ask --solver event which comes first.", time(t_s)));

@@ -303,10 +303,10 @@ const PRINTED: [ViewId; 2] = [ViewId::Locked, ViewId::Margins];
 /// Returns whether a command has an effect on the screen only. The motion is paused, so most
 /// commands of playback have none.
 fn needs_screen(command: &Command) -> bool {
-    use Command::{Axes, Fire, GoToEnd, Jump, Restart, SpeedUnit, Step, Theme};
+    use Command::{Axes, Fire, GoToEnd, Jump, Plain, Restart, SpeedUnit, Step, Theme};
     match command {
         Axes(_) | Theme(_) => true,
-        Step | Restart | Fire | Jump | GoToEnd | SpeedUnit => false,
+        Step | Restart | Fire | Jump | GoToEnd | Plain | SpeedUnit => false,
         other => BINDINGS.iter().find(|binding| binding.command == *other).is_some_and(|binding| {
             [Group::Time, Group::Views, Group::Look].contains(&binding.group)
         }),

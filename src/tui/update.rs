@@ -176,9 +176,7 @@ impl App {
             Command::Edit(edit) => self.edit(edit),
             Command::Ask(purpose) => self.ask_name(purpose),
             Command::Theme(theme) => self.status = Some(self.appearance.use_theme(theme)),
-            Command::NextTheme => {
-                self.status = Some(self.appearance.use_theme(self.appearance.theme.next()));
-            }
+            Command::NextTheme => return self.update(Command::Theme(self.appearance.theme.next())),
             Command::SpeedUnit => {
                 let look = &mut self.appearance;
                 self.status = flipped(&mut look.rpm, ["speeds in rad/s", "speeds in rpm"]);

@@ -118,8 +118,9 @@ fn scene(name: &str, changes: &[(&str, &str)]) -> CheckedScene {
 
 /// What the program prints of a run.
 fn told(report: &RunReport) -> String {
-    let facts = rubscope::sheet::sentence::Facts::of(report);
-    rubscope::sheet::summary::lines(report, Default::default(), &facts).join("\n")
+    use rubscope::sheet::{CommandLine, sentence::Facts, summary::lines};
+    let command = CommandLine::new("run", &report.scene);
+    lines(report, Default::default(), &Facts::of(report), command).join("\n")
 }
 
 /// A scene run to its end once, without the changed runs that say how far to trust it.
