@@ -264,8 +264,8 @@ impl App {
     /// One line that says why nothing is written: the name, another file being written, or no data.
     pub fn write(&mut self, purpose: Purpose, name: &str, replace: bool) -> Result<Effect, String> {
         let name = name.trim();
-        if name.is_empty() {
-            return Err("type a file name; Esc cancels".into());
+        if ["", ".", "..", ".toml"].contains(&name.rsplit('/').next().unwrap_or_default()) {
+            return Err("a file name is missing".into());
         }
         if !name.chars().all(is_plain) {
             return Err("a file name may have visible characters only".into());

@@ -117,9 +117,11 @@ impl App {
             true => self.files.directory.join(&entry.name).to_string_lossy().into_owned(),
             false => entry.name.clone(),
         };
+        let back =
+            if self.files.is_changed(&self.scene) { "; u goes back to the changes" } else { "" };
         self.dialogue.close();
         self.open_scene(path, scene.clone());
-        self.status = Some(format!("opened {name}"));
+        self.status = Some(format!("opened {name}{back}"));
         Ok(())
     }
 
