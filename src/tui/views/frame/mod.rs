@@ -23,6 +23,10 @@ use rubscope_solver::model::SideLeft;
 /// Width from which the polygon is drawn beside the wheel, if the view is alone on the screen.
 const BOTH_FROM: u16 = 76;
 
+/// Length of the trail, and of its coarsest bin, in turns of the wave past the blades. More turns
+/// would fill the disc, and the middle of a longer bin is not on the path.
+const TRAIL: [f64; 2] = [30.0, 0.125];
+
 /// The view of the wheel, and of the wave in the frame of the blades.
 pub struct FrameView;
 
@@ -51,12 +55,9 @@ fn square(area: Rect, reach: f64) -> (ChartAxis, ChartAxis) {
         f64::from(area.width.saturating_sub(6).max(1)),
         2.0 * f64::from(area.height.saturating_sub(2).max(1)),
     );
-    let (x, y) = if width > height {
-        (reach * width / height, reach)
-    } else {
-        (reach, reach * height / width)
-    };
-    (ChartAxis::scaled(-x, x), ChartAxis::scaled(-y, y))
+    let reach = reach / width.min(height);
+    let axis = |length| ChartAxis::scaled(-reach * length, reach * length);
+    (axis(width), axis(height))
 }
 
 /// Describes the position under the cursor: the nearest blade group and its gap, for rigid blades.
@@ -128,7 +129,11 @@ fn polygon(app: &App, buffer: &mut Buffer, at: ViewArea) {
             Curve::Line(Box::new(ends.into_iter())),
         )
     };
-    let past = app.record().iter().take_while(|bin| bin.from < app.now());
+    let turn = TAU / (app.machine.omega_c + app.machine.nu(app.speed().abs()));
+    let [past, longest] = TRAIL.map(|turns| turns * turn);
+    let past = app.record().iter().filter(|bin| {
+        (app.now() - past..app.now()).contains(&bin.from) && bin.to - bin.from <= longest
+    });
     let trail = past.map(|bin| (bin.middle(Channel::RimX), bin.middle(Channel::RimY)));
     chart.curves.push((look.first(), Curve::Line(Box::new(trail))));
     left.sort_by_key(|left| !touching.contains(&left.side));
