@@ -6,12 +6,10 @@
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::cli_support::{hearing, program, words};
-
-/// A long limit, not a speed test: a loaded machine may be slow.
-const PATIENCE: Duration = Duration::from_secs(60);
+use crate::pty_support::patiently;
 
 /// One cell of minutes: an undamped casing that bounces for hours.
 const LONG_CELL: &str = "map undamped --solver event --model rigid --end 1e6 --speed 500:500:1 \
@@ -51,20 +49,18 @@ impl Running {
 
     /// Waits for a condition of the files it writes.
     fn wait_until(&self, condition: impl Fn() -> bool) {
-        let began = Instant::now();
-        while !condition() {
-            assert!(began.elapsed() < PATIENCE, "it does not come to work");
-            std::thread::sleep(Duration::from_millis(10));
-        }
+        patiently("it does not come to work", || {
+            std::thread::sleep(Duration::from_millis(5));
+            condition().then_some(())
+        });
     }
 
     /// Waits until it ends.
     fn finish(mut self) -> Output {
-        let began = Instant::now();
-        while self.0.as_mut().unwrap().try_wait().unwrap().is_none() {
-            assert!(began.elapsed() < PATIENCE, "it does not end");
-            std::thread::sleep(Duration::from_millis(20));
-        }
+        patiently("it does not end", || {
+            std::thread::sleep(Duration::from_millis(5));
+            self.0.as_mut().unwrap().try_wait().unwrap()
+        });
         self.0.take().unwrap().wait_with_output().unwrap()
     }
 }

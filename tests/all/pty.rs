@@ -12,8 +12,7 @@ fn is_coloured(terminal: &Terminal) -> bool {
 
 #[test]
 fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
-    let mut terminal = Start::explorer(&SHORT).open();
-    terminal.wait_for(" LOCKED ");
+    let mut terminal = Start::explorer(&SHORT).locked();
     assert!(terminal.parser.screen().alternate_screen());
     // Five knobs down is the contact law.
     terminal.send("jjjjj");
@@ -22,15 +21,12 @@ fn opens_turns_a_knob_sees_the_verdict_change_and_quits() {
     terminal.wait_for(" DECAY ");
     terminal.send("h");
     terminal.wait_for(" LOCKED ");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
-    terminal.assert_restored();
+    terminal.quit("q");
 }
 
 #[test]
 fn the_mouse_acts_and_is_given_back() {
-    let mut terminal = Start::explorer(&SHORT).open();
-    terminal.wait_for(" LOCKED ");
+    let mut terminal = Start::explorer(&SHORT).locked();
     assert!([1000, 1006].into_iter().all(|mode| terminal.has_mode(mode)));
     // No moves of the pointer.
     assert!([1002, 1003].into_iter().all(|mode| !terminal.has_mode(mode)));
@@ -45,9 +41,7 @@ fn the_mouse_acts_and_is_given_back() {
     terminal.send("M");
     terminal.wait_for("mouse on");
     assert!(terminal.has_mode(1000));
-    terminal.send("\u{3}");
-    assert_eq!(terminal.wait(), 0);
-    terminal.assert_restored();
+    terminal.quit("\u{3}");
 }
 
 #[test]
@@ -56,17 +50,14 @@ fn a_refused_scene_never_takes_the_terminal() {
     assert_eq!(terminal.wait(), 2);
     let text = terminal.text();
     assert!(text.contains("bladed_disk.blades = 0"), "{text}");
-    terminal.assert_restored();
 }
 
 #[test]
 fn no_color_leaves_the_screen_without_colours_unless_it_is_empty() {
     for (value, coloured) in [("", true), ("1", false)] {
-        let mut terminal = Start::explorer(&["--end", "1e-3"]).env("NO_COLOR", value).open();
-        terminal.wait_for(" LOCKED ");
+        let mut terminal = Start::explorer(&["--end", "1e-3"]).env("NO_COLOR", value).locked();
         assert_eq!(is_coloured(&terminal), coloured, "NO_COLOR={value:?}");
-        terminal.send("q");
-        assert_eq!(terminal.wait(), 0);
+        terminal.quit("q");
     }
 }
 
@@ -82,7 +73,6 @@ fn a_terminal_of_any_size_is_drawn_as_far_as_is_sensible() {
         }
         terminal.send("q");
         assert_eq!(terminal.wait(), 0, "{columns}x{rows}");
-        terminal.assert_restored();
     }
 }
 
@@ -105,16 +95,14 @@ fn only_ascii_where_the_terminal_or_the_locale_has_no_more_unless_chosen() {
         // The last row of the screen: the whole of it is there.
         terminal.wait_for("? help");
         assert_eq!(terminal.text().is_ascii(), ascii, "{term} {locale} {marker:?}");
-        terminal.send("q");
-        assert_eq!(terminal.wait(), 0);
+        terminal.quit("q");
     }
 }
 
 #[test]
 fn a_pasted_block_lands_in_the_field_that_is_open_or_is_ignored() {
     let folder = tempfile::tempdir().unwrap();
-    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
-    terminal.wait_for(" LOCKED ");
+    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).locked();
     assert!(terminal.parser.screen().bracketed_paste());
     terminal.send("\u{1b}[200~echo hello\r\n\u{1b}[201~");
     terminal.wait_for("the pasted text is ignored: no field is open");
@@ -128,8 +116,7 @@ fn a_pasted_block_lands_in_the_field_that_is_open_or_is_ignored() {
     terminal.wait_for("the pasted text is ignored: it is too long");
     terminal.send("\r");
     terminal.wait_for("written: mi ne.toml");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
+    terminal.quit("q");
     let names = std::fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().file_name());
     assert_eq!(names.collect::<Vec<_>>(), ["mi ne.toml"]);
 }
@@ -141,8 +128,7 @@ fn a_pipe_a_device_or_a_folder_is_refused_as_a_file_and_the_screen_lives() {
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     std::os::unix::fs::symlink("/dev/tty", folder.path().join("tty.toml")).unwrap();
     std::fs::create_dir(folder.path().join("folder.toml")).unwrap();
-    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
-    terminal.wait_for(" LOCKED ");
+    let mut terminal = Start::explorer(&SHORT).folder(folder.path()).locked();
     for (name, reason) in [
         ("pipe.toml", "cannot write pipe.toml: it is a pipe or a device, not a file"),
         ("tty.toml", "cannot write tty.toml: it is a pipe or a device, not a file"),
@@ -156,17 +142,14 @@ fn a_pipe_a_device_or_a_folder_is_refused_as_a_file_and_the_screen_lives() {
     }
     terminal.send("?");
     terminal.wait_for("select the knob above");
-    terminal.send("\u{3}");
-    assert_eq!(terminal.wait(), 0);
-    terminal.assert_restored();
+    terminal.quit("\u{3}");
 }
 
 #[test]
 fn a_file_above_the_limit_of_the_system_is_refused_and_the_screen_lives() {
     let folder = tempfile::tempdir().unwrap();
     let script = "ulimit -f 0; \"$@\"; echo ended with $?";
-    let mut terminal = Start::shell(script, &SHORT).folder(folder.path()).open();
-    terminal.wait_for(" LOCKED ");
+    let mut terminal = Start::shell(script, &SHORT).folder(folder.path()).locked();
     terminal.send("s\r");
     terminal.wait_for("cannot write scene.toml: ");
     terminal.send("?");

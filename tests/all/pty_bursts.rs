@@ -19,8 +19,7 @@ const MODES: [(&str, &str); 8] = [
 const UNIT: &str = "j\u{1b}[B\u{1b}[<1;10;10M\u{1b}[200~ab\u{1b}[201~";
 
 fn opened(keys: &str, seen: &str) -> Terminal {
-    let mut terminal = Start::explorer(&SHORT).open();
-    terminal.wait_for(" LOCKED ");
+    let mut terminal = Start::explorer(&SHORT).locked();
     terminal.send(keys);
     terminal.wait_for(seen);
     terminal
@@ -33,7 +32,6 @@ fn ends(mut terminal: Terminal, what: &str) {
 
 fn ended(mut terminal: Terminal, what: &str) {
     assert_eq!(terminal.wait(), 0, "{what}");
-    terminal.assert_restored();
 }
 
 /// More than the program reads at once, and more than a terminal and a pipe hold.
@@ -78,7 +76,6 @@ fn one_ctrl_c_does_not_wait_until_a_burst_before_it_is_answered() {
         terminal.send(&(burst.clone() + "\u{3}"));
         let took = terminal.last_processor_s() - before;
         assert_eq!(terminal.wait(), 0);
-        terminal.assert_restored();
         assert!(took < 3.0, "{took} s for {} bytes", burst.len());
     }
 }
@@ -103,11 +100,9 @@ fn one_ctrl_c_behind_the_name_of_a_file_that_cannot_be_written_ends() {
         ("ex.toml", "rubscope: cannot write ex.toml: it exists"),
         ("nodir/ex.toml", "rubscope: cannot write nodir/ex.toml: No such file or directory"),
     ] {
-        let mut terminal = Start::explorer(&SHORT).folder(folder.path()).open();
-        terminal.wait_for(" LOCKED ");
+        let mut terminal = Start::explorer(&SHORT).folder(folder.path()).locked();
         terminal.send(&format!("s{}{name}\r\u{3}", "\u{7f}".repeat(12)));
         assert_eq!(terminal.wait(), 1, "{name}");
-        terminal.assert_restored();
         assert!(terminal.text().contains(reason), "{}", terminal.text());
     }
     assert_eq!(std::fs::read(folder.path().join("ex.toml")).unwrap(), b"old");

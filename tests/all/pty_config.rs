@@ -29,8 +29,7 @@ fn what_was_seen_and_chosen_is_remembered() {
     terminal.wait_for("new here?");
     terminal.send("t");
     terminal.wait_for("theme light");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
+    terminal.quit("q");
     let text = std::fs::read_to_string(file(home.path())).unwrap();
     assert!(text.contains("theme = \"light\"") && text.contains("introduced = true"), "{text}");
 
@@ -41,7 +40,6 @@ fn what_was_seen_and_chosen_is_remembered() {
     // A signal ends it; what was chosen is remembered all the same.
     terminal.signal("TERM");
     assert_eq!(terminal.wait(), 128 + 15);
-    terminal.assert_restored();
     let text = std::fs::read_to_string(file(home.path())).unwrap();
     assert!(text.contains("theme = \"colorblind\""), "{text}");
 
@@ -49,8 +47,7 @@ fn what_was_seen_and_chosen_is_remembered() {
     terminal.wait_for("↑↓ knob");
     terminal.send("t");
     terminal.wait_for("theme dark");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
+    terminal.quit("q");
 }
 
 #[test]
@@ -60,16 +57,14 @@ fn without_the_config_file_nothing_is_read_or_written() {
     terminal.wait_for("↑↓ knob");
     terminal.send("t");
     terminal.wait_for("theme light");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
+    terminal.quit("q");
     assert_eq!(std::fs::read_dir(home.path()).unwrap().count(), 0);
 
     std::fs::create_dir(home.path().join("rubscope")).unwrap();
     std::fs::write(file(home.path()), "theme = \"pink\"").unwrap();
     let mut terminal = explorer(home.path(), &[]).open();
     terminal.wait_for("config.toml is not used");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
+    terminal.quit("q");
     assert_eq!(std::fs::read_to_string(file(home.path())).unwrap(), "theme = \"pink\"");
 }
 
@@ -77,13 +72,10 @@ fn without_the_config_file_nothing_is_read_or_written() {
 fn a_config_file_that_cannot_be_written_is_told_once_at_the_end() {
     let home = home();
     std::os::unix::fs::symlink("nowhere", home.path().join("rubscope")).unwrap();
-    let mut terminal = explorer(home.path(), &[]).size(200, 24).open();
-    terminal.wait_for("LOCKED");
+    let mut terminal = explorer(home.path(), &[]).size(200, 24).locked();
     terminal.send("tt");
     terminal.wait_for("theme colour-blind on dark");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
-    terminal.assert_restored();
+    terminal.quit("q");
     let text = terminal.text();
     assert_eq!(text.matches("rubscope: settings are not saved: ").count(), 1, "{text}");
     assert!(text.contains("File exists"), "{text}");
@@ -95,7 +87,6 @@ fn a_terminal_that_cannot_be_used_is_told_in_one_line() {
     let script = "ulimit -n 6; exec \"$@\"";
     let mut terminal = Start::shell(script, &["--no-config"]).size(120, 24).open();
     assert_eq!(terminal.wait(), 1);
-    terminal.assert_restored();
     let text = terminal.text();
     let told: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
     assert!(
@@ -114,24 +105,19 @@ fn the_first_screen_does_not_wait_for_the_background_and_its_report_changes_the_
         // A terminal that does not answer is taken for a dark one.
         ("", "theme light"),
     ] {
-        let mut terminal = explorer(home.path(), &[]).env("COLORFGBG", "").open();
-        terminal.wait_for("LOCKED");
+        let mut terminal = explorer(home.path(), &[]).env("COLORFGBG", "").locked();
         assert!(terminal.has_written(b"\x1b]11;?"), "{theme}");
         // The theme after the one that the report has led to; no piece of a report is a key.
         for piece in [report, "t"] {
             terminal.send(piece);
         }
         terminal.wait_for(theme);
-        terminal.send("\u{3}");
-        assert_eq!(terminal.wait(), 0);
-        terminal.assert_restored();
+        terminal.quit("\u{3}");
         std::fs::remove_file(file(home.path())).unwrap();
     }
     // A theme that only followed the background is not remembered.
-    let mut terminal = explorer(home.path(), &[]).env("COLORFGBG", "").typed(WHITE).open();
-    terminal.wait_for("LOCKED");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
+    let mut terminal = explorer(home.path(), &[]).env("COLORFGBG", "").typed(WHITE).locked();
+    terminal.quit("q");
     let text = std::fs::read_to_string(file(home.path())).unwrap();
     assert!(!text.contains("theme"), "{text}");
 }

@@ -9,9 +9,7 @@ use crate::pty_support::{SHORT, Start, Terminal};
 /// one before it was not read at once.
 fn large(line: &str) -> Terminal {
     let arguments = [&SHORT[..], &["--line", line]].concat();
-    let mut terminal = Start::explorer(&arguments).size(200, 50).open();
-    terminal.wait_for(" LOCKED ");
-    terminal
+    Start::explorer(&arguments).size(200, 50).locked()
 }
 
 /// Tests each case in a thread: most of the time is spent waiting.
@@ -51,7 +49,6 @@ fn every_signal_ends_it_with_the_terminal_restored() {
         terminal.wait_for("? help");
         terminal.signal(name);
         assert_eq!(terminal.wait(), 128 + number, "{name}");
-        terminal.assert_restored();
     }
 }
 
@@ -64,7 +61,6 @@ fn a_signal_ends_it_while_nobody_reads_the_terminal() {
         // It ends although it is not read, and leaves what restores the terminal.
         assert_eq!(terminal.ended().exit_code(), 128 + number, "{name}");
         assert_eq!(terminal.wait(), 128 + number);
-        terminal.assert_restored();
     });
 }
 
@@ -82,9 +78,7 @@ fn keys_are_answered_while_nobody_reads_the_terminal() {
             terminal.wait_for("2 gaps");
             terminal.wait_for("? help");
         }
-        terminal.send("q");
-        assert_eq!(terminal.wait(), 0);
-        terminal.assert_restored();
+        terminal.quit("q");
     });
 }
 
@@ -110,7 +104,6 @@ fn a_signal_ends_it_in_every_state_read_or_not() {
         terminal.signal("TERM");
         assert_eq!(terminal.ended().exit_code(), 143, "{keys:?} read: {read}");
         assert_eq!(terminal.wait(), 143);
-        terminal.assert_restored();
     });
 }
 
@@ -135,20 +128,23 @@ fn a_signal_ends_it_while_it_starts_and_while_it_ends() {
         terminal.signal("TERM");
         let status = terminal.wait();
         assert!([0, 143].contains(&status), "{status}");
-        terminal.assert_restored();
     }
 }
 
 #[test]
 fn a_hang_up_ends_it_with_its_own_status_in_every_state() {
     let states = ["", " ", "?", "s", "\r12", "c", "f", "g", "\u{c}\u{c}"];
-    each_in_its_thread(states.into_iter(), |keys| {
-        let mut terminal = Start::explorer(&SHORT).leading().open();
-        terminal.wait_for(" LOCKED ");
+    let cases = states.map(|keys| (keys, false)).into_iter().chain([("", true)]);
+    each_in_its_thread(cases, |(keys, blocked)| {
+        let arguments = [&SHORT[..], &["--line", "full"]].concat();
+        let mut terminal = Start::explorer(&arguments).leading().locked();
         terminal.send(keys);
+        if blocked {
+            terminal.block();
+        }
         terminal.hang_up();
         let status = terminal.ended();
-        assert_eq!((status.exit_code(), status.signal()), (129, None), "{keys:?}");
+        assert_eq!((status.exit_code(), status.signal()), (129, None), "{keys:?} {blocked}");
     });
 }
 
@@ -163,21 +159,11 @@ fn a_hang_up_while_it_starts_is_never_a_failure() {
     });
 }
 
-#[test]
-fn a_hang_up_of_a_blocked_terminal_ends_it_too() {
-    let mut terminal = Start::explorer(&SHORT).size(200, 50).leading().open();
-    terminal.wait_for(" LOCKED ");
-    terminal.block();
-    terminal.hang_up();
-    let status = terminal.ended();
-    assert_eq!((status.exit_code(), status.signal()), (129, None));
-}
-
 /// Runs the explorer as a job of a shell that goes on when the job stops.
 fn job(then: &str) -> Terminal {
     let script = format!("set -m; \"$@\"; echo is stopped; {then}");
     let arguments = [&SHORT[..], &["--line", "full"]].concat();
-    Start::shell(&script, &arguments).size(100, 30).open()
+    Start::shell(&script, &arguments).size(100, 30).locked()
 }
 
 #[test]
@@ -226,7 +212,6 @@ fn a_job_in_the_background_can_be_ended() {
 #[test]
 fn a_stopped_job_can_be_ended() {
     let mut terminal = job(END);
-    terminal.wait_for(" LOCKED ");
     terminal.send("\u{1a}");
     terminal.wait_for("ended with 143");
     terminal.assert_restored();
@@ -258,8 +243,7 @@ fn a_signal_that_comes_while_it_stops_is_not_lost() {
     // A job that was told to stop, to end and to go on, in this order, ends.
     each_in_its_thread([0, 20, 50, 150].into_iter(), |pause| {
         let script = "set -m; \"$@\"; echo ended with $?; read answer";
-        let mut terminal = Start::shell(script, &SHORT).size(100, 30).open();
-        terminal.wait_for(" LOCKED ");
+        let mut terminal = Start::shell(script, &SHORT).size(100, 30).locked();
         terminal.follow_the_job();
         terminal.block();
         terminal.signal("TSTP");
@@ -280,8 +264,7 @@ fn a_signal_that_comes_while_it_stops_is_not_lost() {
 fn without_a_shell_it_is_not_stopped() {
     for leading in [false, true] {
         let start = Start::explorer(&SHORT);
-        let mut terminal = if leading { start.leading() } else { start }.open();
-        terminal.wait_for(" LOCKED ");
+        let mut terminal = if leading { start.leading() } else { start }.locked();
         terminal.send("\u{1a}");
         terminal.wait_for("not suspended: there is no shell to continue it");
         terminal.signal("TSTP");
@@ -289,7 +272,6 @@ fn without_a_shell_it_is_not_stopped() {
         terminal.wait_for("Type to find");
         terminal.signal("TERM");
         assert_eq!(terminal.wait(), 143);
-        terminal.assert_restored();
     }
 }
 
@@ -309,7 +291,5 @@ fn in_a_container_the_groups_outside_have_no_number() {
     }
     terminal.send("\u{1a}");
     terminal.wait_for("not suspended: there is no shell to continue it");
-    terminal.send("q");
-    assert_eq!(terminal.wait(), 0);
-    terminal.assert_restored();
+    terminal.quit("q");
 }

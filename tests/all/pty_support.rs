@@ -130,17 +130,17 @@ impl Start {
         drop(pair.slave);
         std::thread::sleep(moment);
         drop(pair.master);
-        let began = Instant::now();
-        loop {
-            if let Some(status) = child.try_wait().unwrap() {
-                return status;
-            }
-            if began.elapsed() > PATIENCE {
-                child.kill().unwrap();
-                panic!("it does not end");
-            }
-            std::thread::sleep(Duration::from_millis(5));
-        }
+        patiently("it does not end", || {
+            std::thread::sleep(Duration::from_millis(2));
+            child.try_wait().unwrap()
+        })
+    }
+
+    /// The explorer, with the verdict of the paper's scene on its screen.
+    pub fn locked(self) -> Terminal {
+        let mut terminal = self.open();
+        terminal.wait_for(" LOCKED ");
+        terminal
     }
 
     pub fn open(self) -> Terminal {
@@ -199,7 +199,7 @@ impl Start {
 }
 
 /// What looks find at last.
-fn patiently<T>(missing: &str, mut look: impl FnMut() -> Option<T>) -> T {
+pub fn patiently<T>(missing: &str, mut look: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
         if let Some(found) = look() {
@@ -332,14 +332,12 @@ impl Terminal {
     /// Waits until the program is stopped (`T`) or has ended (`Z`), where the system tells it
     /// in a file.
     pub fn wait_for_state(&self, letter: char) {
-        let state = format!("/proc/{}/stat", self.process);
-        let began = Instant::now();
-        while let Ok(state) = std::fs::read_to_string(&state)
-            && !state.contains(&format!(") {letter} "))
-        {
-            assert!(began.elapsed() < PATIENCE, "it is not {letter}: {state}");
-            std::thread::sleep(Duration::from_millis(10));
-        }
+        let file = format!("/proc/{}/stat", self.process);
+        patiently(&format!("it is not {letter}"), || {
+            std::thread::sleep(Duration::from_millis(5));
+            let state = std::fs::read_to_string(&file).ok();
+            state.is_none_or(|state| state.contains(&format!(") {letter} "))).then_some(())
+        });
     }
 
     /// The processor time of the program so far, where the system tells it in a file, and whether
@@ -424,7 +422,13 @@ impl Terminal {
         })
     }
 
-    /// Waits for the end and reads the rest; the exit status.
+    /// Presses a key that quits.
+    pub fn quit(&mut self, key: &str) {
+        self.send(key);
+        assert_eq!(self.wait(), 0, "{key:?}");
+    }
+
+    /// Waits for the end and reads the rest, which restores the terminal; the exit status.
     pub fn wait(&mut self) -> u32 {
         let status = self.ended();
         self.unblock();
@@ -435,6 +439,7 @@ impl Terminal {
             self.written.ends_with(LAST.as_bytes()).then_some(())
         });
         assert_eq!(status.signal(), None, "killed");
+        self.assert_restored();
         status.exit_code()
     }
 

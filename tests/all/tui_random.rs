@@ -27,9 +27,7 @@ struct Late {
 
 impl Late {
     fn new() -> Self {
-        let mut engine = Stepwise::new(1e-4);
-        engine.checks = true;
-        Self { engine, kept: VecDeque::new() }
+        Self { engine: Stepwise::new(1e-4), kept: VecDeque::new() }
     }
 }
 
