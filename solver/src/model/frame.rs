@@ -385,9 +385,9 @@ impl Motion {
     pub fn eigenvalues(&self) -> Option<Vec<Complex<f64>>> {
         let n = self.count;
         let block = |of: &Matrix4<f64>| of.view((0, 0), (n, n)).into_owned();
-        let inverse = block(&self.mass).try_inverse()?;
+        let mass = block(&self.mass).lu();
         let (stiffness, damping) =
-            (&inverse * block(&self.stiffness), &inverse * block(&self.damping));
+            (mass.solve(&block(&self.stiffness))?, mass.solve(&block(&self.damping))?);
         state_rates(stiffness.amax().sqrt().max(damping.amax()), |rate| {
             let mut state = DMatrix::zeros(2 * n, 2 * n);
             state.view_mut((0, n), (n, n)).fill_with_identity();

@@ -257,21 +257,17 @@ mod tests {
 
     #[test]
     fn trends_are_forgotten_where_someone_changes_the_motion() {
-        let scene = Scene::base().with(&[
-            ("solver.contact", "smooth"),
-            ("solver.step_s", "1e-6"),
-            ("solver.end_s", "2e-3"),
-            ("contact.stiffness_n_per_m", "27e3"),
-            ("casing.radius_m", "0.49988"),
-            ("bladed_disk.radial_coupling", "0.5"),
-            ("operation.pulse_n", "100"),
-        ]);
-        let scene = scene.unwrap();
-        let mut motion = Explicit::new(&scene);
-        motion.advance(1.9e-3).unwrap();
+        let mut scene = Scene::base();
+        let end = scene.solver.end_s;
+        let mut motion = Explicit::new(&scene.clone().checked().unwrap());
+        for part in (0..100).map(|n| f64::from(n) / 100.0) {
+            let trends = motion.lasting.trends.iter_mut();
+            trends.for_each(|trend| trend.see(part * end, (-part).exp()));
+        }
         let known = |motion: &Explicit| motion.lasting.trends.map(|trend| trend.is_known());
         assert_eq!(known(&motion), [true; 3]);
-        let other = scene.clone().into_scene().with(&[("casing.damping_ratio", "0.06")]).unwrap();
+        scene.casing.damping_ratio = 0.06;
+        let other = scene.checked().unwrap();
         let turns: [Turn; 3] = [
             |motion, _| motion.fire(),
             |motion, _| motion.set_speed(400.0, 0.0),

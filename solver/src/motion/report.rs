@@ -408,7 +408,6 @@ fn caught_at(motion: &Motion) -> Option<(f64, bool)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
 
     #[test]
     fn a_pull_beyond_round_off_contradicts_a_lock() {
@@ -417,30 +416,5 @@ mod tests {
         assert_eq!(reason(&[-244.6, 5e-8]), None);
         assert_eq!(reason(&[]), None);
         assert_eq!(reason(&[-244.6, 57.1]), Some(FailureReason::Pull { force_n: 57.1 }));
-    }
-
-    #[test]
-    fn an_end_outside_the_model_is_a_failure() {
-        let mut motion = Motion::new(&Scene::base().checked().unwrap());
-        motion.advance(1e-3).unwrap();
-        let judged = |angle_rad| {
-            let checks = Checks { max_blade_angle_rad: angle_rad, ..motion.checks() };
-            judge_end(&motion, &checks, 1e-4)
-        };
-        assert_eq!(judged(0.1), (verdict_of(&motion, 1e-4), None));
-        let (verdict, failure) = judged(0.797);
-        assert_eq!(verdict, Verdict::Failed);
-        assert_eq!(failure.unwrap().reason, FailureReason::BladeAngle { angle_rad: 0.797 });
-    }
-
-    /// Pulls are legitimate under the bilateral law unless the verdict is a lock by pushes.
-    #[test]
-    fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
-        let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];
-        let scene = Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap();
-        let report = crate::motion::simulate(&scene);
-        assert_eq!(report.outcome.verdict, Verdict::Adhesive);
-        assert!(report.outcome.contacts.iter().any(|contact| contact.multiplier_n > 1.0));
-        assert_eq!(report.failure, None);
     }
 }

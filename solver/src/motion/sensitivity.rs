@@ -365,8 +365,6 @@ impl Spread {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::run_to_verdict;
-    use crate::scene::Scene;
 
     #[test]
     fn a_faster_rotor_is_faster_after_a_change_of_its_speed_too() {
@@ -375,13 +373,5 @@ mod tests {
             assert_eq!(tiny.change(change(Some(400.0))), change(Some(speed)));
             assert_eq!(tiny.change(change(None)), change(None));
         }
-    }
-
-    #[test]
-    fn what_is_told_to_stop_does_not_know_whether_a_run_is_sensitive() {
-        let scene = Scene::base().as_reference().checked().unwrap();
-        let reached = run_to_verdict(&scene, &|| true).unwrap();
-        assert_eq!(certainty(&scene, reached, false, &|| false), None);
-        assert_eq!(run_with_certainty(&scene, &|| false), None);
     }
 }

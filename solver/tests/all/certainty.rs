@@ -3,7 +3,8 @@
 //! a new one is a row of the test that asks for the same.
 
 use rubscope_solver::motion::{
-    Basis, Certainty, Proof, RunReport, Script, Verdict, run_with_certainty, simulate, to_the_end,
+    Basis, Certainty, Proof, RunReport, Script, Verdict, certainty, run_to_verdict,
+    run_with_certainty, simulate, to_the_end,
 };
 use rubscope_solver::scene::CheckedScene;
 
@@ -23,8 +24,16 @@ fn is_proved(report: &RunReport) -> bool {
 fn an_excitation_forbids_an_early_decay() {
     let words = "excitation.amplitude_nm 2000 excitation.order 3 speed 95.43 pulse 100 \
                  step 1e-6 end 0.3";
-    let early = rubscope_solver::motion::run_to_verdict(&scene("paper-nd3", words), &to_the_end);
+    let early = run_to_verdict(&scene("paper-nd3", words), &to_the_end);
     assert_eq!(early.unwrap().verdict, Verdict::Failed);
+}
+
+#[test]
+fn what_is_told_to_stop_does_not_know_whether_a_run_is_sensitive() {
+    let scene = scene("paper-nd3", "contact unilateral solver event");
+    let reached = run_to_verdict(&scene, &to_the_end).unwrap();
+    assert_eq!(certainty(&scene, reached, false, &|| false), None);
+    assert_eq!(run_with_certainty(&scene, &|| false), None);
 }
 
 #[test]

@@ -4,7 +4,8 @@
 
 use crate::tips_support::{END, KAPPA, MU, PULSE, SPEED, STEP, TAU, coordinates, limit, pressed};
 use rubscope_solver::motion::{Motion, Verdict, run_to_verdict, to_the_end};
-use rubscope_solver::scene::Scene;
+use rubscope_solver::scene::{Scene, SolverKind};
+use rubscope_solver::study::precision::{Effort, Measure};
 
 fn set(mut scene: Scene, key: &str, value: &str) -> Scene {
     scene.set(key, value).unwrap();
@@ -186,4 +187,20 @@ fn energy_is_accounted_for_to_second_order() {
         // Contact that opens and closes has a jump of the third derivative.
         assert!(fine < 0.12 * coarse, "{changes:?} {model}: {coarse} {fine}");
     }
+}
+
+/// By a Runge-Kutta method of eighth order, with the full angles of the blades.
+#[test]
+fn a_reference_on_a_lining_is_that_of_a_method_of_high_order() {
+    let mut scene = Scene::builtin("coincidence").unwrap();
+    (scene.operation.speed_rad_s, scene.solver.end_s) = (410.0, 0.05);
+    let measure = Measure::new(&scene, Effort::QUICK, &to_the_end).unwrap().unwrap();
+    let way = measure.reference().way;
+    assert_eq!((way.solver, way.step_s), (SolverKind::Explicit, Some(5e-7)));
+    let mut motion = Motion::new(&way.of(&scene).unwrap());
+    motion.advance(0.05).unwrap();
+    let [x, y] = motion.state().u;
+    // The casing moves by 5e-7 m.
+    let off = (x + 2.684_877_616e-7).hypot(y - 4.302_712_028e-7);
+    assert!(off < 1e-12, "{off:e}");
 }

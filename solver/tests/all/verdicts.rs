@@ -5,12 +5,10 @@ use crate::plain::scenes::{in_corner, scene};
 use proptest::prelude::*;
 
 use rubscope_solver::motion::{
-    ActiveSet, Motion, Verdict, VerdictReached, run_to_verdict, to_the_end, verdict_of,
+    ActiveSet, Checks, FailureReason, LAST_PART, Motion, Verdict, VerdictReached, judge_end,
+    run_to_verdict, to_the_end, verdict_of,
 };
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
-
-/// Part of the run over which a verdict is judged: the last tenth.
-const LAST_PART: f64 = 0.1;
 
 /// Scenes of every solver, law and model that decay, bounce, slip and lock, with
 /// excitation, ramps, pulses that end late, and starts in a corner.
@@ -109,6 +107,20 @@ proptest! {
             settled = now;
         }
     }
+}
+
+#[test]
+fn an_end_outside_the_model_is_a_failure() {
+    let mut motion = Motion::new(&Scene::base().checked().unwrap());
+    motion.advance(1e-3).unwrap();
+    let judged = |angle_rad| {
+        let checks = Checks { max_blade_angle_rad: angle_rad, ..motion.checks() };
+        judge_end(&motion, &checks, 1e-4)
+    };
+    assert_eq!(judged(0.1), (verdict_of(&motion, 1e-4), None));
+    let (verdict, failure) = judged(0.797);
+    assert_eq!(verdict, Verdict::Failed);
+    assert_eq!(failure.unwrap().reason, FailureReason::BladeAngle { angle_rad: 0.797 });
 }
 
 /// Blades of the event solver in the corner of sides 0 and 1.

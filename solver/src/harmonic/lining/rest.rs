@@ -274,7 +274,6 @@ mod tests {
     use super::*;
     use crate::model::{ContactSurface, Row};
     use crate::scene::Scene;
-    use proptest::prelude::*;
 
     /// Returns `L_c L_a + S0 [(1 + i mu_c) L_a + c2 L_c]` at a rate, relative to the magnitude of
     /// its terms.
@@ -291,46 +290,47 @@ mod tests {
         rest.norm() / (size(&casing) * size(&blades) + coupled * stiffness)
     }
 
-    proptest! {
-        #[test]
-        fn roots_solve_the_quartic_and_are_those_of_eight_states(
-            kappa in -1.0..1.0_f64, mu in 0.0..0.6_f64, tau in 0.0..0.4_f64,
-            zetas in (0.0..0.3_f64, 0.0..0.3_f64), stiffness in 2.0..8.0_f64,
-            speed in -900.0..900.0_f64,
-        ) {
+    #[test]
+    fn roots_solve_the_quartic_and_are_those_of_eight_states() {
+        let mut random = fastrand::Rng::with_seed(4);
+        for _ in 0..256 {
+            let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
             let mut scene = Scene::base();
             for (path, value) in [
-                ("casing.radius_m", 0.49988), ("bladed_disk.radial_coupling", kappa),
-                ("contact.friction", mu), ("casing.tangential_ratio", tau),
-                ("casing.damping_ratio", zetas.0), ("bladed_disk.damping_ratio", zetas.1),
+                ("casing.radius_m", 0.49988),
+                ("bladed_disk.radial_coupling", between(-1.0, 1.0)),
+                ("contact.friction", between(0.0, 0.6)),
+                ("casing.tangential_ratio", between(0.0, 0.4)),
+                ("casing.damping_ratio", between(0.0, 0.3)),
+                ("bladed_disk.damping_ratio", between(0.0, 0.3)),
             ] {
                 scene.set(path, &value.to_string()).unwrap();
             }
+            let (stiffness_n_per_m, speed) =
+                (10_f64.powf(between(2.0, 8.0)), between(-900.0, 900.0));
             let machine = scene.machine();
-            let surface =
-                ContactSurface { stiffness_n_per_m: 10_f64.powf(stiffness), ..Default::default() };
+            let surface = ContactSurface { stiffness_n_per_m, ..Default::default() };
             let lining = Lining::of(&machine, &surface).unwrap();
             let frame = Frame::at(&machine, speed);
             let rest = lining.rest(speed);
             let stiffness = rest.stiffness_n_per_m;
             for root in rest.roots {
                 let l = Complex::new(root.growth_1_s, root.s_rad_s);
-                prop_assert!(residual(&frame, stiffness, l) < 1e-10, "{root:?}");
+                assert!(residual(&frame, stiffness, l) < 1e-10, "{root:?}");
             }
             let springs = [(1.0, 0.0), (0.0, 1.0)].map(|n| (Row::fixed(&frame, n), stiffness));
             let values = frame.motion(&[], &springs).eigenvalues().unwrap();
             let growth = values.iter().map(|value| value.re).fold(f64::MIN, f64::max);
             // Nearly equal roots are accurate to half the digits.
             let near = rest.roots.iter().flat_map(|a| rest.roots.iter().map(move |b| (a, b)));
-            let apart = near.filter(|(a, b)| a != b)
+            let apart = near
+                .filter(|(a, b)| a != b)
                 .map(|(a, b)| (a.s_rad_s - b.s_rad_s).hypot(a.growth_1_s - b.growth_1_s))
                 .fold(f64::INFINITY, f64::min);
             let size = values.iter().map(|value| value.norm()).fold(0.0, f64::max);
             let bound = 1e-11 * size * (1.0 + size / apart);
-            prop_assert!(
-                (rest.worst().growth_1_s - growth).abs() < bound,
-                "{} is not {growth}", rest.worst().growth_1_s
-            );
+            let worst = rest.worst().growth_1_s;
+            assert!((worst - growth).abs() < bound, "{worst} is not {growth}");
         }
     }
 

@@ -295,42 +295,6 @@ fn median(values: &mut [f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::to_the_end;
-    use crate::scene::{ContactLaw, ModelSize};
-
-    fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
-        let measure = Measure::new(scene, Effort::QUICK, &to_the_end).unwrap().unwrap();
-        let rows = ways(scene, Effort::QUICK)
-            .into_iter()
-            .filter(chosen)
-            .map(|way| measure.row(way, Effort::QUICK, &to_the_end).unwrap().unwrap())
-            .collect();
-        (measure.reference().clone(), rows)
-    }
-
-    #[test]
-    fn errors_of_the_explicit_solver_fall_with_its_step() {
-        let (reference, rows) = rows(&Scene::base(), |way| {
-            way.model == ModelSize::Rigid
-                && way.contact == ContactLaw::Unilateral
-                && way.solver == SolverKind::Explicit
-        });
-        assert!(reference.error.unwrap() < 1e-12 && !reference.sensitive);
-        let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
-        assert_eq!(errors.len(), 4);
-        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
-        // First order in contact: two decades of step give two decades of error.
-        assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
-        assert!(rows.iter().all(|row| row.verdict_right == Some(true)));
-    }
-
-    #[test]
-    fn the_event_solver_is_exact_at_every_tolerance_that_is_tight() {
-        let (_, rows) = rows(&Scene::base(), |way| {
-            way.solver == SolverKind::Event && way.tolerance <= Some(1e-9)
-        });
-        assert!(rows.iter().all(|row| row.error_final.unwrap() < 1e-8), "{rows:?}");
-    }
 
     #[test]
     fn a_step_too_long_is_left_out() {

@@ -175,3 +175,38 @@ impl Way {
         Ok(Some(TimedRun { verdict, failed: reached.is_err(), wall_s, motion }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Measure;
+    use super::*;
+
+    const EFFORT: Effort = Effort::QUICK;
+
+    /// With inclined or rubbing tips single blades affect the contact, so two disk modes are no
+    /// reference.
+    #[test]
+    fn single_blades_beyond_the_paper_are_their_own_reference() {
+        let by_events = |changes: &[(&str, &str)]| {
+            let scene = Scene::builtin("paper-nd3").unwrap().with(changes).unwrap();
+            [ModelSize::Rigid, ModelSize::Modal, ModelSize::Full]
+                .map(|model| reference(&scene, model, EFFORT).unwrap().solver == SolverKind::Event)
+        };
+        let pushes = ("solver.contact", "unilateral");
+        assert_eq!(by_events(&[]), [true; 3]);
+        assert_eq!(by_events(&[pushes, ("contact.restitution", "0.5")]), [true; 3]);
+        for key in ["bladed_disk.radial_coupling", "contact.friction"] {
+            assert_eq!(by_events(&[pushes, (key, "0.1")]), [true, true, false], "{key}");
+        }
+        assert_eq!(by_events(&[("solver.contact", "smooth")]), [false; 3]);
+        let ramp = [pushes, ("operation.speed_ramp_rad_s2", "10"), ("contact.friction", "0.1")];
+        assert_eq!(by_events(&ramp), [true, false, false]);
+        // The full model is too long for a reference with halved steps and has no rows; the others
+        // stay.
+        let mut long = Scene::builtin("friction-lock").unwrap().as_reference();
+        long.solver.end_s = 200.0;
+        let models: Vec<_> = ways(&long, EFFORT).iter().map(|way| way.model).collect();
+        assert!(models.contains(&ModelSize::Modal) && !models.contains(&ModelSize::Full));
+        assert_eq!(Measure::check(&long, EFFORT), Ok(()));
+    }
+}
