@@ -66,11 +66,9 @@ impl Bin {
     /// Extends this bin by a later one.
     pub fn join(&mut self, later: &Self) {
         self.to = later.to;
-        for ((low, high), (new_low, new_high)) in
-            self.low.iter_mut().zip(&mut self.high).zip(later.low.iter().zip(&later.high))
-        {
-            *low = low.min(*new_low);
-            *high = high.max(*new_high);
+        for k in 0..CHANNELS {
+            self.low[k] = self.low[k].min(later.low[k]);
+            self.high[k] = self.high[k].max(later.high[k]);
         }
         self.contact = self.contact.into_iter().chain(later.contact).reduce(wider);
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rubscope::tui::App;
 use rubscope::tui::lessons::{LessonStep, Settings};
 use rubscope_solver::harmonic::{Form, Lining, locked_motion, roundness};
-use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
+use rubscope_solver::motion::RunReport;
 use rubscope_solver::scene::{CheckedScene, Value, keys};
 use rubscope_solver::study::margins::Margins;
 use rubscope_solver::study::survey::Scattered;
@@ -188,13 +188,7 @@ fn break_time(scene: &CheckedScene) -> f64 {
     for _ in 0..30 {
         let mut shorter = scene.clone().into_scene();
         shorter.solver.end_s = 0.5 * (held + broken);
-        let run = run_to_end(
-            &shorter.checked().unwrap(),
-            &Script::default(),
-            Sampling::default(),
-            &mut |_| {},
-        );
-        let held_still = run.outcome.contacts.len() == 2;
+        let held_still = crate::run_once(&shorter.checked().unwrap()).outcome.contacts.len() == 2;
         *(if held_still { &mut held } else { &mut broken }) = shorter.solver.end_s;
     }
     held

@@ -108,7 +108,7 @@ fn first_minute(theme: Theme) -> String {
     let (slow, fast) = (4e-6, 4e-4);
     let scene = Scene::builtin("paper-nd3").unwrap();
     let mut engine = Stepwise::new(slow);
-    engine.extent.searches_changes = true;
+    (engine.extent.searches_changes, engine.checks) = (true, true);
     let session = Session::with_engine((80, 24), engine, scene, theme, Marker::Braille);
     let mut moving = Moving { session, frames: Vec::new() };
     moving.film("rubscope: a pulse pushes the casing, and two blades catch its wave", 9, 6);

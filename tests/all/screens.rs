@@ -2,7 +2,7 @@
 //!
 //! | line | it does |
 //! |---|---|
-//! | `@ 80x24 SCENE WORDS` | opens the explorer; words: `mono`, `ascii`, `unchecked`, `searched`, `stride=SECONDS`, `KEY=VALUE` |
+//! | `@ 80x24 SCENE WORDS` | opens the explorer; words: `mono`, `ascii`, `checked`, `searched`, `stride=SECONDS`, `KEY=VALUE` |
 //! | `> KEYS` | presses them in one go; a line without keys lets two frames pass |
 //! | `>> KEYS` | presses them one by one |
 //! | `= 120x40` | gives the screen another size |
@@ -46,9 +46,9 @@ fn open(line: &str) -> Session {
         match word.split_once('=') {
             None if word == "ascii" => marker = Marker::Ascii,
             None if word == "mono" => theme = Theme::Mono,
-            None if word == "unchecked" => engine.checks = false,
+            None if word == "checked" => engine.checks = true,
             None if word == "searched" => engine.extent.searches_changes = true,
-            None => panic!("{word}: allowed is ascii, mono, unchecked or searched"),
+            None => panic!("{word}: allowed is ascii, mono, checked or searched"),
             Some(("stride", seconds)) => engine.stride = seconds.parse().unwrap(),
             Some((key, value)) => opened.set(key, value).unwrap(),
         }

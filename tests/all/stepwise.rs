@@ -42,7 +42,7 @@ pub struct Stepwise {
     /// How much is computed: of a map all blocks of eight by eight, and some finer ones. What else
     /// changes the verdict, some hundred runs, is left to those who look at it.
     pub extent: Extent,
-    /// Whether a run is checked for tiny changes: four more runs.
+    /// Whether a run is checked for tiny changes, with four more runs, for those who look at it.
     pub checks: bool,
     order: Option<Order>,
     playback: Option<Playback>,
@@ -53,7 +53,7 @@ impl Stepwise {
     /// Creates an engine that plays `stride` seconds of motion between two snapshots.
     pub fn new(stride: f64) -> Self {
         let extent = Extent { most_cells: 66, searches_changes: false, rest: Duration::ZERO };
-        Self { stride, extent, checks: true, ..Self::default() }
+        Self { stride, extent, ..Self::default() }
     }
 }
 

@@ -156,7 +156,6 @@ fn anything_in_every_state((width, height): (u16, u16)) {
         let mut scene = scene();
         scene.solver.end_s = 2e-3;
         let mut session = Session::open(width, height, scene, Theme::Dark, Marker::Braille);
-        session.engine.checks = false;
         session.press(keys);
         for y in 0..=height {
             for x in (0..=width).step_by(if width > 100 { 23 } else { 11 }) {

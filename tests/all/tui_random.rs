@@ -27,7 +27,9 @@ struct Late {
 
 impl Late {
     fn new() -> Self {
-        Self { engine: Stepwise::new(1e-4), kept: VecDeque::new() }
+        let mut engine = Stepwise::new(1e-4);
+        engine.checks = true;
+        Self { engine, kept: VecDeque::new() }
     }
 }
 

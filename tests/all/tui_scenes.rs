@@ -17,7 +17,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 fn open(width: u16, height: u16, folder: &tempfile::TempDir, marker: Marker) -> Session {
-    let mut session = Session::open(width, height, scene(), Theme::Mono, marker);
+    let mut session = Session::searched(width, height, scene(), Theme::Mono, marker);
     session.app.files.directory = folder.path().to_path_buf();
     session.press("o");
     session

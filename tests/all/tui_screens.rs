@@ -50,7 +50,7 @@ fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
     let marks = |speed: f64| {
         let mut scene = scene();
         scene.operation.speed_rad_s = speed;
-        let mut session = Session::searched(120, 40, scene, Theme::Dark, Marker::Ascii);
+        let mut session = Session::open(120, 40, scene, Theme::Dark, Marker::Ascii);
         session.press("6f ");
         let text = session.text();
         let row = text.lines().rfind(|line| line.matches('@').count() == 3);
@@ -69,7 +69,7 @@ fn a_rotor_that_turns_backward_has_campbell_lines_of_its_own() {
 
 #[test]
 fn themes_differ_in_colour_only_and_mono_has_none() {
-    let mut session = Session::searched(80, 24, scene(), Theme::Dark, Marker::Braille);
+    let mut session = Session::open(80, 24, scene(), Theme::Dark, Marker::Braille);
     session.press(" ");
     let before = session.text();
     for theme in ["light", "colour-blind on dark", "colour-blind on light", "mono"] {
@@ -170,7 +170,7 @@ fn an_oval_casing_lies_or_stands_as_its_lobes_do() {
     scene.solver.end_s = 0.05;
     let mut width = |angle: f64| {
         (scene.casing.lobes, scene.casing.out_of_round_angle_rad) = (2, angle);
-        let mut session = Session::searched(80, 40, scene.clone(), Theme::Mono, Marker::Braille);
+        let mut session = Session::open(80, 40, scene.clone(), Theme::Mono, Marker::Braille);
         session.press("4f");
         let drawn = |letter: char| ('\u{2801}'..='\u{28ff}').contains(&letter);
         // The wheel is on the left.

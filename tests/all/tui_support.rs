@@ -58,10 +58,10 @@ impl Session {
         Self::with_stride((width, height), 3e-3, scene, theme, marker)
     }
 
-    /// The same, with all that the margins search.
+    /// The same, with all that the margins search, and checked for tiny changes.
     pub fn searched(width: u16, height: u16, scene: Scene, theme: Theme, marker: Marker) -> Self {
         let mut engine = Stepwise::new(3e-3);
-        engine.extent.searches_changes = true;
+        (engine.extent.searches_changes, engine.checks) = (true, true);
         Self::with_engine((width, height), engine, scene, theme, marker)
     }
 

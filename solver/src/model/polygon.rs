@@ -55,12 +55,13 @@ impl ContactPolygon {
     #[must_use]
     pub fn sides_left(&self, apothems: &[f64]) -> Vec<SideLeft> {
         let sides = self.sides;
+        let turn = |k| (2.0 * self.delta * f64::from(k)).sin_cos();
+        let turns: Vec<_> = (1..sides.div_ceil(2)).map(|k| (k, turn(k))).collect();
         let least = apothems.iter().copied().fold(f64::INFINITY, f64::min);
         let left = |(side, height): (u32, &f64)| {
             let reach = |backward: bool| {
                 let (mut end, mut cutting) = (f64::INFINITY, side);
-                for k in 1..sides.div_ceil(2) {
-                    let (sin, cos) = (2.0 * self.delta * f64::from(k)).sin_cos();
+                for &(k, (sin, cos)) in &turns {
                     if least > 0.0 && (least - height * cos) / sin > end {
                         break;
                     }

@@ -9,6 +9,7 @@ pub(crate) mod quadrature;
 pub(crate) mod real_roots;
 pub mod rounding;
 pub(crate) mod search;
+pub mod spectrum;
 pub(crate) mod sum;
 
 /// Returns whether a number is zero. Used with serde's `skip_serializing_if`.

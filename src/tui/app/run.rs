@@ -345,8 +345,9 @@ const BLADES: [Channel; 2] = [Channel::AlphaC, Channel::AlphaS];
 
 /// Returns the lowest and highest value of some channels; `None` if no bin has finite values.
 fn extremes(bins: &[Bin], channels: [Channel; 2]) -> Option<(f64, f64)> {
-    let spans = bins.iter().flat_map(|bin| channels.map(|channel| bin.span(channel)));
-    spans.filter(|(low, high)| low.is_finite() && high.is_finite()).reduce(wider)
+    let is_finite = |(low, high): &(f64, f64)| low.is_finite() && high.is_finite();
+    let of = |channel| bins.iter().map(move |bin| bin.span(channel)).filter(is_finite);
+    channels.into_iter().filter_map(|channel| of(channel).reduce(wider)).reduce(wider)
 }
 
 /// Extends a range if the data exceed it.

@@ -1,8 +1,8 @@
 //! Records samples of a motion as bins of minimum and maximum values.
 
-use crate::tui::history::{Bin, CHANNELS};
+use crate::tui::history::{Bin, CHANNELS, wider};
 use rubscope_solver::model::Machine;
-use rubscope_solver::motion::{ActiveSet, ContactLog, Motion, State};
+use rubscope_solver::motion::{ActiveSet, ContactLog, Impact, Motion, State};
 
 /// Returns the casing displacement in the frame of the blades, `z = (u_c + i u_s) exp(-i n_d
 /// theta)` \[m\], with `turned = n_d theta`.
@@ -87,21 +87,18 @@ impl Recorder {
     /// `None` if nothing touched.
     fn contact(&self, log: &ContactLog, from: f64, to: f64) -> Option<(f64, f64)> {
         let known = usize::try_from(self.impacts).unwrap_or(usize::MAX);
-        let new = log.impact_count.saturating_sub(self.impacts);
-        let impacts = || log.impacts.iter().skip(known).map(|impact| impact.t_s);
-        // If the times of some impacts were not kept, the whole sample counts as contact.
-        let unknown = usize::try_from(new).is_ok_and(|new| impacts().count() < new);
+        let new = log.impacts.get(known..).unwrap_or(&[]);
         let [was, is] = [self.active_set, log.active_set].map(|set| set != ActiveSet::Nothing);
         let ended = log.last_contact.filter(|t| *t > from && *t <= to);
         let last = if is { Some(to) } else { ended };
-        let first = match (was, is) {
-            (true, _) => Some(from),
-            (false, true) => Some(log.since.clamp(from, to)),
-            (false, false) => last,
-        };
-        let all = [first.zip(last), unknown.then_some((from, to))].into_iter().flatten();
-        let all = all.chain(impacts().map(|t| (t, t)));
-        all.reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+        let begun = if is { Some(log.since.clamp(from, to)) } else { last };
+        let first = if was { Some(from) } else { begun };
+        // If the times of some impacts were not kept, the whole sample counts as contact.
+        let unknown = (new.len() as u64) < log.impact_count.saturating_sub(self.impacts);
+        let contact = if unknown { Some((from, to)) } else { first.zip(last) };
+        new.iter().fold(contact, |contact, &Impact { t_s, .. }| {
+            Some(contact.map_or((t_s, t_s), |contact| wider(contact, (t_s, t_s))))
+        })
     }
 
     /// Returns the bins so far, including the open one.

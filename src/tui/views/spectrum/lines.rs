@@ -4,6 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::tui::axis::{readable, round_out};
+use rubscope_solver::numeric::spectrum::amplitudes;
 use rubscope_solver::scene::Scene;
 use rubscope_solver::study::figures::{Panel, Quantity, Series, Style};
 
@@ -41,7 +42,7 @@ impl Spectrum {
     pub fn of(scene: &Scene, (begin, interval, signal): (f64, f64, Vec<[f64; 2]>)) -> Self {
         let length = signal.len() as f64 * interval;
         let [from, to] = [begin, begin + length].map(|t| readable(t, "s"));
-        let of = |place: usize| amplitudes_of(signal.iter().map(|pair| pair[place]).collect());
+        let of = |place: usize| amplitudes(signal.iter().map(|pair| pair[place]).collect());
         let (resolution, highest) = (TAU / length, highest(scene));
         let (cosine, sine) = (of(0), of(1));
         let least = 10_f64.powf(DECADES.0);
@@ -66,32 +67,6 @@ fn highest(scene: &Scene) -> f64 {
     let fastest = operation.speed_rad_s.abs().max(end.abs());
     let most = (machine.nu(fastest) + machine.omega_bd).max(machine.omega_c);
     round_out(0.0, 1.3 * most, 5).1
-}
-
-/// Returns the amplitude of each line up to half the rate of the samples, scaled such that a sine at
-/// the frequency of a line gives its own amplitude there.
-/// Empty for fewer than 8 samples, or if one is not finite.
-fn amplitudes_of(mut samples: Vec<f64>) -> Vec<f64> {
-    let count = samples.len();
-    if count < 8 || samples.iter().any(|x| !x.is_finite()) {
-        return Vec::new();
-    }
-    let turns: Vec<_> = (0..count).map(|k| (TAU * k as f64 / count as f64).sin_cos()).collect();
-    for (sample, (_, cos)) in samples.iter_mut().zip(&turns) {
-        *sample *= 0.5 - 0.5 * cos;
-    }
-    let amplitude = |line: usize| {
-        let (mut cosine, mut sine, mut turn) = (0.0, 0.0, 0);
-        for sample in &samples {
-            let (sin, cos) = turns[turn];
-            cosine += sample * cos;
-            sine += sample * sin;
-            turn = (turn + line) % count;
-        }
-        // The Hann window halves a sine's amplitude, and the sum is count/2 times it.
-        4.0 / count as f64 * f64::hypot(cosine, sine)
-    };
-    (0..=count / 2).map(amplitude).collect()
 }
 
 #[cfg(test)]
