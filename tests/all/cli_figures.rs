@@ -102,10 +102,9 @@ fn figure_10_has_a_casing_that_does_not_notice_the_speed_and_three_forms() {
 /// The paper: locked from about 0.08 s, on blades #6 and #21.
 #[test]
 fn figures_4_to_6_lock_on_the_blades_of_the_paper() {
-    let run = |changes: &[(&str, &str)]| crate::run_once(&with(4, changes)).outcome;
-    let held = |changes| run(changes).contacts.iter().map(|c| c.blades[0]).collect::<Vec<_>>();
-    let fine = run(&[]);
-    assert_eq!((fine.verdict, held(&[])), (Verdict::Locked, vec![6, 21]));
+    let fine = crate::run_once(&with(4, &[])).outcome;
+    let held: Vec<u32> = fine.contacts.iter().map(|contact| contact.blades[0]).collect();
+    assert_eq!((fine.verdict, held), (Verdict::Locked, vec![6, 21]));
     // Round-off moves these by a fifth of a millisecond: another processor may.
     assert!((fine.lock_time_s.unwrap() - 0.0769).abs() < 3e-4);
     let figure = drawn(4);
