@@ -61,7 +61,7 @@ fn answers(terminal: &mut Terminal) {
     // An escape byte alone is a key only after a moment.
     for _ in 0..3 {
         terminal.send("\x1b");
-        std::thread::sleep(Duration::from_millis(40));
+        std::thread::sleep(Duration::from_millis(100));
     }
     terminal.send("?");
     terminal.wait_for("select the knob above");
