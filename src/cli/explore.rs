@@ -71,20 +71,20 @@ where
 }
 
 impl ExploreCommand {
-    /// Returns whether the explorer runs without a screen.
-    pub(super) fn is_in_lines(&self) -> bool {
-        self.lines || tui::is_dumb_terminal()
-    }
-
     pub(super) fn run(&self, cli: &clap::Command, out: &mut dyn Write) -> Done {
-        self.refuse_command(cli)?;
         let name = self.options.name().unwrap_or(DEFAULT);
+        // After an option, clap reads the name of a command as that of a scene.
+        if cli.get_subcommands().any(|command| command.get_name() == name) {
+            let right = format!("options come after the command: rubscope {name} [OPTIONS]");
+            return Err(Refusal::because(right).into());
+        }
         let read = read_scene(name).map_err(|error| match misspelt(name, cli) {
             Some(refusal) if matches!(error, SceneError::UnknownScene { .. }) => refusal.into(),
             _ => anyhow::Error::from(error),
         })?;
         let scene = self.options.change(read.clone())?;
-        if !self.is_in_lines() {
+        let is_in_lines = self.lines || tui::is_dumb_terminal();
+        if !is_in_lines {
             tui::check_terminal().map_err(Refusal::because)?;
         }
         let look = tui::ExploreOptions {
@@ -99,7 +99,7 @@ impl ExploreCommand {
             source: Some(tui::Source { name: name.to_string(), scene: read }),
         };
         status::say_noted();
-        if self.is_in_lines() {
+        if is_in_lines {
             let input = std::io::stdin();
             tui::lines(scene, &look, &mut input.lock(), out, input.is_terminal())?;
             return Ok(Status::Done);
@@ -108,15 +108,5 @@ impl ExploreCommand {
             0 => Ok(Status::Done),
             code => Ok(Status::Signal(code.saturating_sub(128))),
         }
-    }
-
-    /// Refuses a command name that follows an option: clap has read it as the name of a scene.
-    fn refuse_command(&self, cli: &clap::Command) -> Result<(), Refusal> {
-        let name = self.options.name().unwrap_or_default();
-        if cli.get_subcommands().any(|command| command.get_name() == name) {
-            let right = format!("options come after the command: rubscope {name} [OPTIONS]");
-            return Err(Refusal::because(right));
-        }
-        Ok(())
     }
 }

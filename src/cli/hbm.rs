@@ -97,33 +97,25 @@ impl HbmCommand {
             None if view.one_speed => vec![scene.operation.speed_rad_s],
             None => linspace(0.0, scene.operation.speed_rad_s, SPEEDS),
         };
-        let (form, pair) = (self.form()?, self.pair()?);
+        let unknown = |_| {
+            let allowed = format!("one of {}", Form::VARIANTS.join(", "));
+            Refusal::of("--form", &self.form, allowed)
+        };
+        let (form, pair) = (self.form.parse().map_err(unknown)?, self.pair()?);
         // The paper's own equations have no damping.
         let damped = self.damped || !(self.undamped || form == Form::Printed);
         let (speeds, machine) = (&speeds[..], scene.machine());
         let request = Request { scene, speeds, form, damped, pair, machine };
-        let sheet = request.sheet(view, self.command(scene)).map_err(refused)?;
-        status::say_noted();
-        self.output.deliver(&sheet, out)
-    }
-
-    /// Returns the command that reproduces the table.
-    fn command(&self, scene: &Scene) -> CommandLine {
         let command = CommandLine::new("hbm", scene)
             .optional("--speed", self.options.speed())
             .option("--form", &self.form)
             .flag("--undamped", self.undamped)
-            .flag("--damped", self.damped && self.form == Form::Printed.to_string())
-            .optional("--blades", self.blades.as_ref());
-        match self.view.0.option {
-            "" => command,
-            option => command.flag(&format!("--{option}"), true),
-        }
-    }
-
-    fn form(&self) -> Result<Form, Refusal> {
-        let allowed = || format!("one of {}", Form::VARIANTS.join(", "));
-        self.form.parse().map_err(|_| Refusal::of("--form", &self.form, allowed()))
+            .flag("--damped", self.damped && form == Form::Printed)
+            .optional("--blades", self.blades.as_ref())
+            .flag(&format!("--{}", view.option), !view.option.is_empty());
+        let sheet = request.sheet(view, command).map_err(refused)?;
+        status::say_noted();
+        self.output.deliver(&sheet, out)
     }
 
     fn pair(&self) -> Result<Option<[u32; 2]>, Refusal> {

@@ -78,7 +78,11 @@ impl MapCommand {
         if let Some(MapSubcommand::Merge(merge)) = &self.merge {
             return merge.run(out);
         }
-        let shard = self.shard()?;
+        let read = |text: &String| {
+            let refused = || Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT");
+            Shard::parse(text).ok_or_else(refused)
+        };
+        let shard = self.shard.as_ref().map(read).transpose()?;
         let ending = match shard {
             Some(_) => self.output.ending_among(&["csv"])?,
             None => self.output.ending()?,
@@ -121,12 +125,6 @@ impl MapCommand {
         Ok(plan)
     }
 
-    fn shard(&self) -> Result<Option<Shard>, Refusal> {
-        let Some(text) = &self.shard else { return Ok(None) };
-        let shard = Shard::parse(text).map(Some);
-        shard.ok_or_else(|| Refusal::of("--shard", text, "K/COUNT with K from 1 to COUNT"))
-    }
-
     fn compute(&self, map: &mut Map, shard: Option<Shard>) -> anyhow::Result<()> {
         // Without a number, 0: every core.
         let threads = self.threads.unwrap_or(0) as usize;
@@ -144,7 +142,14 @@ impl MapCommand {
 impl Merge {
     fn run(&self, out: &mut dyn Write) -> Done {
         let ending = self.output.ending()?;
-        let map = read_shares(&self.files)?;
+        let mut shares = Vec::new();
+        for path in &self.files {
+            let shown = path.display().to_string();
+            let file = File::open(path)
+                .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
+            shares.push((shown, file));
+        }
+        let map = part::read_all(shares).map_err(Refusal::because)?;
         check_picture(&map.plan, ending)?;
         self.output.deliver(&report::sheet(&map, width()), out)
     }
@@ -157,17 +162,6 @@ fn check_picture(plan: &MapPlan, ending: Option<&str>) -> Result<(), Refusal> {
     }
     let cells = format!("an .svg of {} cells", plan.len());
     Err(Refusal::of("--out", cells, format!("up to {MOST_DRAWN} cells in a picture")))
-}
-
-fn read_shares(files: &[PathBuf]) -> anyhow::Result<Map> {
-    let mut shares = Vec::new();
-    for path in files {
-        let shown = path.display().to_string();
-        let file = File::open(path)
-            .map_err(|error| Refusal::because(format!("cannot read {shown}: {error}")))?;
-        shares.push((shown, file));
-    }
-    Ok(part::read_all(shares).map_err(Refusal::because)?)
 }
 
 /// Returns the width of the text map \[characters\]: that of the terminal if standard output is

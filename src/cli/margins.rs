@@ -11,7 +11,7 @@ use super::status::{self, Done};
 use crate::sheet::number::with_typed_unit;
 use crate::sheet::{CommandLine, margins as report};
 use rubscope_solver::motion::to_the_end;
-use rubscope_solver::scene::{CheckedScene, Quantity};
+use rubscope_solver::scene::Quantity;
 use rubscope_solver::study::margins::{LimitName, Margins, Target};
 
 /// Find how far a run is from another verdict and from every limit, and what moves each limit most.
@@ -55,7 +55,11 @@ impl MarginsCommand {
             bar.set_message("nearest changes of the verdict");
             margins.ask_runs(true, &to_the_end, &mut |_| bar.inc(1));
         }
-        self.output.deliver(&report::sheet(&margins, self.command(&scene)), out)
+        let command = CommandLine::new("margins", &scene)
+            .optional("--target", self.target())
+            .optional("--by", self.by.as_ref())
+            .flag("--no-search", self.no_search);
+        self.output.deliver(&report::sheet(&margins, command), out)
     }
 
     /// Returns the text of `--target`, with `rpm` appended to a speed without a unit if `--rpm` is
@@ -71,13 +75,5 @@ impl MarginsCommand {
             }
             None => text.clone(),
         })
-    }
-
-    /// Returns the command that reproduces the answer.
-    fn command(&self, scene: &CheckedScene) -> CommandLine {
-        CommandLine::new("margins", scene)
-            .optional("--target", self.target())
-            .optional("--by", self.by.as_ref())
-            .flag("--no-search", self.no_search)
     }
 }

@@ -13,7 +13,7 @@ use super::status::{self, Done, Refusal, Status};
 use crate::sheet::history::HISTORY_VALUES;
 use crate::sheet::{CommandLine, History, Wall, summary};
 use rubscope_solver::motion::{Sample, Sampling, Verdict, run_to_end, to_the_end};
-use rubscope_solver::scene::{Scene, SolverKind};
+use rubscope_solver::scene::SolverKind;
 
 /// Simulate a scene in time and report how it ends.
 #[derive(Args, Debug)]
@@ -84,18 +84,15 @@ impl RunCommand {
             wall.certainty_s = Some(started.elapsed().as_secs_f64());
         }
         let changes = (script.words.join(", "), script.json);
-        let sheet = summary::sheet(&report, wall, changes, &history, self.command(&scene));
+        let command = CommandLine::new("run", &scene);
+        let command = self.at.iter().fold(command, |line, change| line.option("--at", change));
+        let command =
+            command.flag("--no-sensitivity", self.no_sensitivity).flag("--plain", self.plain);
+        let sheet = summary::sheet(&report, wall, changes, &history, command);
         self.output.deliver(&sheet, out)?;
         Ok(match report.outcome.verdict {
             Verdict::Failed => Status::Failed,
             _ => Status::Done,
         })
-    }
-
-    /// Returns the command that reproduces the result.
-    fn command(&self, scene: &Scene) -> CommandLine {
-        let start = CommandLine::new("run", scene);
-        let line = self.at.iter().fold(start, |line, change| line.option("--at", change));
-        line.flag("--no-sensitivity", self.no_sensitivity).flag("--plain", self.plain)
     }
 }

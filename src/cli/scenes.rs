@@ -18,26 +18,20 @@ pub struct ScenesCommand {
 
 impl ScenesCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        match &self.name {
-            Some(name) => {
-                // Refuses an unknown name with the same message as every other command.
-                Scene::builtin(name)?;
-                let file = BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml);
-                writeln!(out, "{}", file.unwrap_or_default().trim_end())?;
-            }
-            None => list(out)?,
+        if let Some(name) = &self.name {
+            // Refuses an unknown name with the same message as every other command.
+            Scene::builtin(name)?;
+            let file = BUILTIN.iter().find(|scene| scene.name == name).map(|scene| scene.toml);
+            writeln!(out, "{}", file.unwrap_or_default().trim_end())?;
+            return Ok(Status::Done);
+        }
+        let widest = BUILTIN.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+        for (index, builtin) in BUILTIN.iter().enumerate() {
+            let scene = Scene::builtin(builtin.name)?;
+            let default = if index == 0 { " (the default)" } else { "" };
+            writeln!(out, "{:widest$}  {}{default}", builtin.name, scene.title)?;
+            writeln!(out, "{:widest$}  {}", "", scene.note)?;
         }
         Ok(Status::Done)
     }
-}
-
-fn list(out: &mut dyn Write) -> anyhow::Result<()> {
-    let widest = BUILTIN.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
-    for (index, builtin) in BUILTIN.iter().enumerate() {
-        let scene = Scene::builtin(builtin.name)?;
-        let default = if index == 0 { " (the default)" } else { "" };
-        writeln!(out, "{:widest$}  {}{default}", builtin.name, scene.title)?;
-        writeln!(out, "{:widest$}  {}", "", scene.note)?;
-    }
-    Ok(())
 }

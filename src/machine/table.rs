@@ -84,7 +84,9 @@ pub fn read_modes(bytes: &[u8]) -> Result<ModeTable> {
             let cell = if has_comma { cell.replacen(',', ".", 1) } else { cell.to_string() };
             // The two modes of a pair have nodal diameters of both signs.
             let cell = if name == MODE[0] { cell.trim_start_matches(SIGNS).into() } else { cell };
-            let cell = with_usual_exponent(cell);
+            // The exponent of Fortran, as in `1.3D+03`.
+            let usual = cell.replace(['D', 'd'], "E");
+            let cell = if usual.parse::<f64>().is_ok() { usual } else { cell };
             let is_bare = !unit.is_empty() && Quantity::bare(&cell).is_some();
             Some(if is_bare { format!("{cell} {unit}") } else { cell })
         };
@@ -135,12 +137,6 @@ fn note_unused(notes: &mut Vec<String>, what: &str, list: &[String]) {
 
 /// Signs of a harmonic index.
 const SIGNS: [char; 4] = ['+', '-', '\u{2212}', '±'];
-
-/// Returns a cell with the exponent of Fortran, as in `1.3D+03`, in the usual form.
-fn with_usual_exponent(cell: String) -> String {
-    let usual = cell.replace(['D', 'd'], "E");
-    if usual.parse::<f64>().is_ok() { usual } else { cell }
-}
 
 /// Words for the casing and for the disk.
 const STRUCTURES: [&str; 2] =

@@ -31,7 +31,7 @@ pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
     for (name, value) in CELLS {
         let row = move |row| {
             let cells = (0..plan.x.count).map(|column| map.at(column, row as u32));
-            cells.map(|cell| TableCell::from(cell.as_ref().map(value)).in_json()).collect()
+            cells.map(|cell| cell.as_ref().map(value).unwrap_or_default().value).collect()
         };
         sheet.list(name, plan.y.count as usize, row);
     }
@@ -45,7 +45,7 @@ pub fn sheet(map: &Map, width: usize) -> Sheet<'_> {
 
 /// Columns of the cells of the map.
 const CELLS: [Column<'_, Cell>; 3] = [
-    ("verdict", |cell| cell.verdict.as_ref().into()),
+    ("verdict", |cell| cell.verdict.into()),
     ("sensitive", |cell| (cell.doubt == Doubt::Sensitive).into()),
     ("depends_on_step", |cell| cell.depends_on_step().into()),
 ];
@@ -88,7 +88,7 @@ pub(super) fn row(map: &Map, index: usize) -> Vec<TableCell> {
     let cell = map.at(column, row);
     // A plain number: `to_string` never uses a power of ten.
     let at = [x.value(column), y.value(row)].map(|value| value.to_string().into());
-    let values = CELLS.map(|(_, value)| cell.as_ref().map(value).into());
+    let values = CELLS.map(|(_, value)| cell.as_ref().map(value).unwrap_or_default());
     at.into_iter().chain(values).collect()
 }
 

@@ -3,15 +3,15 @@
 //! The first line of a share begins with `#` and names the version and commit of the
 //! program, the scene and the axes. It is the same in every share of a map.
 
-use std::fmt::Display;
 use std::io::{BufRead, BufReader, Read, Write};
 
+use anyhow::{anyhow, ensure};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::map::{self, row};
 use super::table::Table;
-use rubscope_solver::scene::{Scene, SceneError};
+use rubscope_solver::scene::Scene;
 use rubscope_solver::study::{Axis, Cell, Doubt, Map, MapPlan};
 
 /// Start of the first line; the origin of the cells follows as JSON.
@@ -54,16 +54,17 @@ struct Origin {
     sensitivity: bool,
 }
 
-impl Origin {
-    /// Returns the plan, completely checked.
-    fn plan(self) -> Result<MapPlan, SceneError> {
-        let axis = |axis: Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
-        let scene = Scene::from_toml_unchecked(&self.scene)?;
-        let (x, y) = (axis(self.x)?, axis(self.y)?);
-        let plan = MapPlan { scene, x, y, sensitivity: self.sensitivity };
-        plan.check()?;
-        Ok(plan)
-    }
+/// Returns the plan in the first line of a share, completely checked.
+fn plan(first: &str) -> anyhow::Result<MapPlan> {
+    let origin = first
+        .strip_prefix(START)
+        .ok_or_else(|| anyhow!("its first line does not begin with {START}"))?;
+    let Origin { scene, x, y, sensitivity } = serde_json::from_str(origin)?;
+    let axis = |axis: Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
+    let scene = Scene::from_toml_unchecked(&scene)?;
+    let plan = MapPlan { scene, x: axis(x)?, y: axis(y)?, sensitivity };
+    plan.check()?;
+    Ok(plan)
 }
 
 /// Writes the cells of the map that were computed, as a share.
@@ -95,49 +96,9 @@ fn columns(plan: &MapPlan) -> Vec<String> {
 /// A file is not a share, shares belong to different maps, or a cell is missing or there twice. The
 /// message names the file.
 pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Result<Map, String> {
-    let mut joined: Option<(String, Map)> = None;
-    for (name, reader) in shares {
-        let refused = |reason: &dyn Display| format!("{name}: {reason}");
-        let mut reader = BufReader::new(reader);
-        let mut first = String::new();
-        let read = reader.by_ref().take(LONGEST_FIRST).read_line(&mut first);
-        read.map_err(|error| refused(&error))?;
-        let (known, mut map) = match joined {
-            Some((known, map)) if known == first.trim_end() => (known, map),
-            before => {
-                let plan = plan(&first)
-                    .map_err(|reason| refused(&format!("not a share of a map: {reason}")))?;
-                if before.is_some() {
-                    return Err(refused(&"a share of another map than the file before it"));
-                }
-                (first.trim_end().to_string(), Map::empty(plan))
-            }
-        };
-        let mut table = csv::Reader::from_reader(reader.take(LARGEST_TABLE));
-        let columns = columns(&map.plan);
-        let own = |given: &csv::StringRecord| given.is_empty() || given.iter().eq(&columns);
-        if !table.headers().is_ok_and(own) {
-            return Err(refused(&format!("line 2 is not {}", columns.join(","))));
-        }
-        let mut record = csv::StringRecord::new();
-        loop {
-            // The origin is one line above the table.
-            let line = table.position().line() + 1;
-            let read = table.read_record(&mut record);
-            if matches!(read, Ok(false)) {
-                break;
-            }
-            let (index, cell) = read
-                .ok()
-                .and_then(|_| parse_row(&record, &map.plan))
-                .ok_or_else(|| refused(&format!("line {line} is not a row of this map")))?;
-            if map.cells[index].is_some() {
-                return Err(refused(&format!("cell {index} (line {line}) is there twice")));
-            }
-            map.cells[index] = Some(cell);
-            map.runs += 1;
-        }
-        joined = Some((known, map));
+    let mut joined = None;
+    for (name, share) in shares {
+        read(share, &mut joined).map_err(|why| format!("{name}: {why}"))?;
     }
     let (_, map) = joined.ok_or("no share of a map was given")?;
     let mut missing = (0..map.cells.len()).filter(|index| map.cells[*index].is_none());
@@ -147,12 +108,37 @@ pub fn read_all<R: Read>(shares: impl IntoIterator<Item = (String, R)>) -> Resul
     Ok(map)
 }
 
-fn plan(first: &str) -> Result<MapPlan, String> {
-    let origin = first
-        .strip_prefix(START)
-        .ok_or_else(|| format!("its first line does not begin with {START}"))?;
-    let origin: Origin = serde_json::from_str(origin).map_err(|error| error.to_string())?;
-    origin.plan().map_err(|error| error.to_string())
+/// Adds a share to the map that the shares before it have `joined`, and their first line.
+fn read(share: impl Read, joined: &mut Option<(String, Map)>) -> anyhow::Result<()> {
+    let mut share = BufReader::new(share);
+    let mut first = String::new();
+    share.by_ref().take(LONGEST_FIRST).read_line(&mut first)?;
+    let (_, map) = match joined {
+        Some(same) if same.0 == first.trim_end() => same,
+        before => {
+            let plan = plan(&first).map_err(|why| anyhow!("not a share of a map: {why}"))?;
+            ensure!(before.is_none(), "a share of another map than the file before it");
+            before.insert((first.trim_end().to_string(), Map::empty(plan)))
+        }
+    };
+    let mut table = csv::Reader::from_reader(share.take(LARGEST_TABLE));
+    let columns = columns(&map.plan);
+    let own = |given: &csv::StringRecord| given.is_empty() || given.iter().eq(&columns);
+    ensure!(table.headers().is_ok_and(own), "line 2 is not {}", columns.join(","));
+    let mut record = csv::StringRecord::new();
+    loop {
+        // The origin is one line above the table.
+        let line = table.position().line() + 1;
+        let found = match table.read_record(&mut record) {
+            Ok(false) => return Ok(()),
+            Ok(true) => parse_row(&record, &map.plan),
+            Err(_) => None,
+        };
+        let (index, cell) = found.ok_or_else(|| anyhow!("line {line} is not a row of this map"))?;
+        ensure!(map.cells[index].is_none(), "cell {index} (line {line}) is there twice");
+        map.cells[index] = Some(cell);
+        map.runs += 1;
+    }
 }
 
 /// Parses a row of a share; `None` if it is not the row of one of the cells of the map.

@@ -48,9 +48,9 @@ pub fn reference_words(reference: &Reference) -> String {
 pub fn table(report: &Precision) -> Table<'_> {
     let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
     let columns: Vec<Column<'_, Row, Heading>> = vec![
-        ("solver".into(), |row| row.way.solver.as_ref().into()),
-        ("contact".into(), |row| row.way.contact.as_ref().into()),
-        ("model".into(), |row| row.way.model.as_ref().into()),
+        ("solver".into(), |row| row.way.solver.into()),
+        ("contact".into(), |row| row.way.contact.into()),
+        ("model".into(), |row| row.way.model.into()),
         (Heading::filed("step_s"), |row| row.way.step_s.into()),
         (Heading::filed("tolerance"), |row| row.way.tolerance.into()),
         (Heading::filed("plain"), |row| row.way.plain.into()),
@@ -59,13 +59,13 @@ pub fn table(report: &Precision) -> Table<'_> {
         (head("error_impact_time_s", "impact error [s]", 2), |row| row.error_impact_time_s.into()),
         (Heading::filed("max_penetration_m"), |row| row.max_penetration_m.into()),
         (head("wall_s", "time [us]", 3), |row| {
-            TableCell::Told(row.wall_s, short(rounded(1e6 * row.wall_s, 3)))
+            TableCell::told(row.wall_s, short(rounded(1e6 * row.wall_s, 3)))
         }),
         (head("ns_per_step", "ns/step", 3), |row| row.ns_per_step.into()),
         (head("steps", "taken", 6), |row| row.steps.into()),
         (head("steps_skipped", "skipped", 6), |row| row.steps_skipped.into()),
         (Heading::filed("events"), |row| row.events.into()),
-        ("verdict".into(), |row| row.verdict.as_ref().into()),
+        ("verdict".into(), |row| row.verdict.into()),
         (Heading::filed("verdict_right"), |row| row.verdict_right.into()),
         (Heading::filed("other_law"), |row| row.other_law.into()),
         (Heading::shown(""), |row| match row {

@@ -294,7 +294,12 @@ impl Facts {
     /// Returns the notes on how the motion got there, the most serious first, and whether the result
     /// is suspect.
     fn notes(&self) -> (Vec<Forms>, bool) {
-        let mut notes: Vec<Forms> = self.growth.map(grows).into_iter().collect();
+        let mut notes: Vec<Forms> = Vec::new();
+        if let Some(growth) = self.growth {
+            let growth = with_unit(growth, 3, "1/s");
+            let long = format!("But this lock is unstable: it grows by {growth}.");
+            notes.push([long, "It is unstable.".into()]);
+        }
         let (sensitive, at_this_step) = (self.certainty.sensitive, self.is_of_this_step());
         if let Some(other) = self.other.filter(|other| *other != self.verdict)
             && !at_this_step
@@ -360,12 +365,6 @@ impl Facts {
             ],
         }
     }
-}
-
-/// Says that a lock is unstable: a deviation grows at this rate \[1/s\].
-fn grows(growth: f64) -> Forms {
-    let growth = with_unit(growth, 3, "1/s");
-    [format!("But this lock is unstable: it grows by {growth}."), "It is unstable.".into()]
 }
 
 /// Formats a rotor speed \[rad/s\] with four digits, in the shown unit.

@@ -212,15 +212,13 @@ fn room(machine: &Machine) -> &'static str {
 
 /// Describes the force of a group of blades; `moved` is the deviation of the force in changed runs.
 fn touch(contact: &Contact, moved: Option<f64>, digits: &Digits) -> String {
-    let together = if contact.blades.len() > 1 { " together" } else { "" };
-    let verb = match (contact.multiplier_n > 0.0, contact.blades.len()) {
-        (false, 1) => "pushes",
-        (false, _) => "push",
-        (true, 1) => "pulls",
-        (true, _) => "pull",
+    let [one, several] = match contact.multiplier_n > 0.0 {
+        true => ["pulls", "together pull"],
+        false => ["pushes", "together push"],
     };
+    let does = if contact.blades.len() == 1 { one } else { several };
     let force = digits.shown(contact.multiplier_n.abs(), moved, short);
-    format!("{}{together} {verb} with {force} N at the end.", capital(&blades(&contact.blades)))
+    format!("{} {does} with {force} N at the end.", capital(&blades(&contact.blades)))
 }
 
 /// Compares the rotor speed at the end of the run with the critical speed and the lock speed, where

@@ -306,21 +306,22 @@ pub fn rows(survey: &Survey, shown: &[&SurveyRow]) -> Table<'static> {
     let heads = heads.chain([of_bar.as_str(), "casing", "disk"]);
     let heads = heads.chain(limits.iter().map(|limit| limit.1));
     let heads: Vec<Heading> = heads.map(|head| Heading::shown(head.to_string())).collect();
-    let cell = |x: f64, sign: &str| TableCell::Told(x, short(rounded(x, 5)) + sign);
+    let cell = |x: f64, sign: &str| TableCell::told(x, short(rounded(x, 5)) + sign);
     let row = |row: &&SurveyRow| {
         let here = row.nodal_diameters == survey.scene.operation.nodal_diameters;
         let (sign, known) = (if here { ">" } else { " " }, if row.guessed { "?" } else { "" });
         let own = format!("{sign}{}{known}", row.nodal_diameters);
         let [locks, whirl] = verdict(survey, row);
         let words = [own, locks].into_iter().chain(whirls.then_some(whirl));
-        let words = words.chain([bar(survey, row)]).map(TableCell::Word);
+        let words = words.chain([bar(survey, row)]).map(TableCell::from);
         let modes = [row.omega_c_rad_s, row.omega_bd_rad_s].map(|omega| cell(omega / TAU, ""));
         let limits = limits.iter().map(|(name, _)| {
-            row.limit(*name, survey.is_forward()).map_or(TableCell::Empty, |limit| {
+            let limit = row.limit(*name, survey.is_forward()).map(|limit| {
                 let sign = if limit.in_range == Some(true) { "*" } else { "" };
                 let by = limit.by.map_or(String::new(), |by| format!(" ({})", words::change(by)));
                 cell(per_speed(limit.value.abs()), &format!("{sign}{by}"))
-            })
+            });
+            limit.unwrap_or_default()
         });
         words.chain(modes).chain(limits).collect()
     };

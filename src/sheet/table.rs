@@ -16,22 +16,14 @@ const APART: usize = 2;
 /// Width to which the notes below a table and the sentences of reports are wrapped \[characters\].
 pub const WIDTH: usize = 100;
 
-/// One cell of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TableCell {
-    /// A number in SI units; files leave the cell empty if it is not finite.
-    Number(f64),
-    /// A number for files, which leave the cell empty if it is not finite, and its text for the
-    /// screen.
-    Told(f64, String),
-    /// A whole number.
-    Count(u64),
-    /// Yes or no.
-    Flag(bool),
-    /// A word or two.
-    Word(String),
-    /// No value: empty in files, `-` on the screen.
-    Empty,
+/// One cell of a table; the default is an empty one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TableCell {
+    /// Value in files, with numbers in SI units: `null`, which CSV leaves empty and the screen shows as
+    /// `-`, for no value and for a number that is not finite.
+    pub(super) value: Value,
+    /// Text on the screen, where it does not follow from the value.
+    text: Option<String>,
 }
 
 /// Names of columns of rotor or wave speeds, which text shows in the unit the user chose. Files keep
@@ -93,66 +85,44 @@ impl Heading {
 
     /// Formats a cell of this column for the screen.
     fn text(&self, cell: &TableCell) -> String {
-        match cell {
-            TableCell::Number(x) => {
-                let x = if self.speeds { per_speed(*x) } else { *x };
+        match (&cell.text, &cell.value, cell.number()) {
+            (Some(text), ..) | (None, Value::String(text), _) => text.clone(),
+            (None, _, Some(x)) => {
+                let x = if self.speeds { per_speed(x) } else { x };
                 short(if self.digits < DIGITS { rounded(x, self.digits) } else { x })
             }
-            TableCell::Told(_, text) | TableCell::Word(text) => text.clone(),
-            TableCell::Count(n) => n.to_string(),
-            TableCell::Flag(yes) => yes.to_string(),
-            TableCell::Empty => "-".to_string(),
+            (None, Value::Null, None) => "-".to_string(),
+            (None, value, None) => value.to_string(),
         }
     }
 }
 
 impl TableCell {
+    /// Creates a number for files with its text for the screen.
+    pub fn told(x: f64, text: String) -> Self {
+        Self { text: Some(text), ..Self::from(x) }
+    }
+
+    /// Returns the number in the cell; `None` for a whole one, which counts something.
+    fn number(&self) -> Option<f64> {
+        self.value.as_f64().filter(|_| self.value.is_f64())
+    }
+
     fn in_csv(&self) -> String {
-        match self {
-            Self::Number(x) | Self::Told(x, _) if x.is_finite() => exact(*x),
-            Self::Word(word) => word.clone(),
-            Self::Count(n) => n.to_string(),
-            Self::Flag(yes) => yes.to_string(),
-            Self::Number(_) | Self::Told(..) | Self::Empty => String::new(),
-        }
-    }
-
-    /// Returns the cell as JSON.
-    pub fn in_json(&self) -> Value {
-        match self {
-            // A number that is not finite is `null`.
-            Self::Number(x) | Self::Told(x, _) => json!(x),
-            Self::Count(n) => json!(n),
-            Self::Flag(yes) => json!(yes),
-            Self::Word(word) => json!(word),
-            Self::Empty => Value::Null,
+        match (&self.value, self.number()) {
+            (_, Some(x)) => exact(x),
+            (Value::String(word), _) => word.clone(),
+            (Value::Null, _) => String::new(),
+            (value, _) => value.to_string(),
         }
     }
 }
 
-impl From<f64> for TableCell {
-    fn from(x: f64) -> Self {
-        if x.is_finite() { Self::Number(x) } else { Self::Empty }
+impl<T: Serialize> From<T> for TableCell {
+    fn from(content: T) -> Self {
+        Self { value: json!(content), text: None }
     }
 }
-
-impl<T: Into<TableCell>> From<Option<T>> for TableCell {
-    fn from(known: Option<T>) -> Self {
-        known.map_or(Self::Empty, T::into)
-    }
-}
-
-/// Makes cells of a kind from a type.
-macro_rules! cells {
-    ($($kind:ident($type:ty)),*) => {
-        $(impl From<$type> for TableCell {
-            fn from(content: $type) -> Self {
-                Self::$kind(content.into())
-            }
-        })*
-    };
-}
-cells!(Flag(bool), Count(u64), Count(u32), Word(&str), Word(String));
 
 /// Lists columns of a table: the name of a field of the items, or a name and the function that makes
 /// the cell.
@@ -253,11 +223,8 @@ impl<'a> Table<'a> {
         let places = names.map(|name| {
             self.headings.iter().position(|heading| heading.name.as_deref() == Some(name))
         });
-        let number = |row: &[TableCell], place: Option<usize>| match place
-            .and_then(|place| row.get(place))
-        {
-            Some(TableCell::Number(x) | TableCell::Told(x, _)) => *x,
-            _ => f64::NAN,
+        let number = |row: &[TableCell], place: Option<usize>| {
+            place.and_then(|place| row.get(place)?.number()).unwrap_or(f64::NAN)
         };
         self.rows().map(|row| (number(&row, places[0]), number(&row, places[1]))).collect()
     }
@@ -280,7 +247,7 @@ impl<'a> Table<'a> {
         let mut left = vec![false; shown.len()];
         for row in self.rows() {
             for (left, (place, _)) in left.iter_mut().zip(&shown) {
-                *left |= matches!(row[*place], TableCell::Word(_) | TableCell::Flag(_));
+                *left |= row[*place].value.is_string() || row[*place].value.is_boolean();
             }
             let text = |(place, heading): &(usize, &Heading)| spell(&heading.text(&row[*place]));
             lines.push(shown.iter().map(text).collect());
@@ -338,7 +305,7 @@ impl<'a> Table<'a> {
 impl Serialize for Table<'_> {
     fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
         let field = |(heading, cell): (&Heading, &TableCell)| {
-            Some((heading.name.as_deref()?.to_string(), cell.in_json()))
+            Some((heading.name.as_deref()?.to_string(), cell.value.clone()))
         };
         let object = |row: Vec<TableCell>| -> Value {
             Value::Object(self.headings.iter().zip(&row).filter_map(field).collect())
@@ -359,8 +326,8 @@ mod tests {
             Heading::shown(""),
         ];
         let first = vec![1.234.into(), 5.0.into(), "wrong".into()];
-        let none = TableCell::Number(f64::NAN);
-        let second = vec![TableCell::Told(2000.0, "2 kN".into()), none, TableCell::Empty];
+        let second =
+            vec![TableCell::told(2000.0, "2 kN".into()), f64::NAN.into(), TableCell::default()];
         let mut table = Table::with_rows(headings, vec![first, second]);
         table.note("one note");
         let (mut csv, mut lines) = (Vec::new(), Vec::new());

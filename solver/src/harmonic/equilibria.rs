@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 
 use nalgebra::Complex;
-use strum::AsRefStr;
+use serde::Serialize;
 
 use super::held::{Held, at_rest, grows, largest_growth};
 use super::{Corner, Form, error};
@@ -18,8 +18,8 @@ use crate::scene::SceneError;
 const BRANCH_CHANGES: usize = 16;
 
 /// Kind of equilibrium by its contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AsRefStr)]
-#[strum(serialize_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// No contact; the casing is undeformed.
     Rest,
@@ -35,8 +35,8 @@ impl Kind {
 }
 
 /// Whether real contact can hold an equilibrium, or the reason why not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, AsRefStr)]
-#[strum(serialize_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Character {
     /// No such equilibrium exists.
     Absent,

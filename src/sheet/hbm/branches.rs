@@ -71,7 +71,7 @@ const CORNERS: &[Column<'_, CornerRow>] = &[
     ("multiplier_a_n", |row| row.3.multipliers_n[0].into()),
     ("multiplier_b_n", |row| row.3.multipliers_n[1].into()),
     ("amplitude_m", |row| row.3.amplitude_m.into()),
-    ("character", |row| row.3.character.as_ref().into()),
+    ("character", |row| row.3.character.into()),
     ("smallest_gap_m", |row| row.3.smallest_gap_m.into()),
     ("torque_nm", |row| row.3.torque_nm.into()),
     ("power_w", |row| row.3.power_w.into()),
@@ -79,12 +79,11 @@ const CORNERS: &[Column<'_, CornerRow>] = &[
     ("growth_1_s", |row| row.3.growth_1_s.into()),
 ];
 
-const THRESHOLDS: &[Column<'_, Threshold>] = &[
-    ("speed_rad_s", |threshold| threshold.speed_rad_s.into()),
-    ("state", |threshold| threshold.kind.as_ref().into()),
-    ("below", |threshold| threshold.below.as_ref().into()),
-    ("above", |threshold| threshold.above.as_ref().into()),
-];
+const THRESHOLDS: &[Column<'_, Threshold>] = &columns! {
+    speed_rad_s,
+    state: |threshold| threshold.kind.into(),
+    below, above,
+};
 
 fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
     state.contacts.get(index).map(|contact| contact.multiplier_n).into()
@@ -92,8 +91,8 @@ fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
 
 const STATES: &[Column<'_, Equilibrium>] = &columns! {
     speed_rad_s,
-    state: |state| state.kind.as_ref().into(),
-    character: |state| state.character.as_ref().into(),
+    state: |state| state.kind.into(),
+    character,
     multiplier_a_n: |state| multiplier(state, 0),
     multiplier_b_n: |state| multiplier(state, 1),
     amplitude_m,

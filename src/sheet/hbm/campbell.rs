@@ -3,7 +3,7 @@
 use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::table::{Column, Table, TableCell, columns};
-use rubscope_solver::harmonic::{Campbell, Coincidence, Line};
+use rubscope_solver::harmonic::{Campbell, Coincidence};
 use rubscope_solver::scene::SceneError;
 
 pub const CAMPBELL: View = View {
@@ -32,19 +32,16 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
     let coincidences = "Coincidences +-omega_c = n_d Omega +- omega_bd, Eq. (30):";
     sheet.table("coincidences", coincidences, Table::of(campbell.coincidences, COINCIDENCES));
     let title = "Frequencies in the standing frame [rad/s]:";
-    sheet.table("points", title, table(campbell.lines, request.speeds.to_vec()));
+    let names = campbell.lines.iter().map(|line| line.name.clone());
+    let headings: Vec<String> = std::iter::once("speed_rad_s".into()).chain(names).collect();
+    let row = |&speed: &f64| {
+        let lines = campbell.lines.iter().map(|line| line.at(speed));
+        std::iter::once(speed).chain(lines).map(TableCell::from).collect()
+    };
+    let rows = request.speeds.iter().map(row).collect();
+    sheet.table("points", title, Table::with_rows(headings, rows));
     sheet.chart("frequency [rad/s]", &[]);
     Ok(())
-}
-
-/// Returns the frequencies against rotor speed: one row per speed, one column per line.
-fn table(lines: Vec<Line>, speeds: Vec<f64>) -> Table<'static> {
-    let names = lines.iter().map(|line| line.name.clone());
-    let headings: Vec<String> = std::iter::once("speed_rad_s".to_string()).chain(names).collect();
-    Table::new(headings, speeds.len(), move |row| {
-        let lines = lines.iter().map(|line| line.at(speeds[row]));
-        std::iter::once(speeds[row]).chain(lines).map(TableCell::from).collect()
-    })
 }
 
 const COINCIDENCES: &[Column<'_, Coincidence>] = &columns! {

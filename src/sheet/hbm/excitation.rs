@@ -46,7 +46,7 @@ const RESPONSE: &[Column<'_, ExcitedLock>] = &[
     ("change_of_amplitude", |lock| lock.relative_amplitude.into()),
     ("change_of_multiplier", |lock| lock.relative_multiplier.into()),
     ("release_torque_nm", |lock| lock.release_torque_nm.into()),
-    ("character", |lock| lock.state.character.as_ref().into()),
+    ("character", |lock| lock.state.character.into()),
     ("alpha_s_rad", |lock| lock.response[3].norm().into()),
     ("multiplier_a_n", |lock| lock.multipliers_n[0].norm().into()),
     ("multiplier_b_n", |lock| lock.multipliers_n[1].norm().into()),

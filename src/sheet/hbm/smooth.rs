@@ -140,8 +140,7 @@ const CYCLES: &[Column<'_, Cycle>] = &columns! {
 
 /// Columns of the waves that are at rest in the frame of the blades.
 const STATES: &[Column<'_, LiningState>] = &columns! {
-    speed_rad_s,
-    pushing: |state| (state.pushing as u64).into(),
+    speed_rad_s, pushing,
     push_a_n: |state| push(state, 0),
     push_b_n: |state| push(state, 1),
     push_c_n: |state| push(state, 2),

@@ -140,7 +140,11 @@ impl<'a> Request<'a> {
     /// includes damping.
     fn tell(&self, damped: bool, sheet: &mut Sheet) {
         let Self { scene, machine, .. } = self;
-        let (speed, notes) = (self.fastest(), notes(scene, machine));
+        let speed = self.fastest();
+        // Effects of the scene that the view ignores.
+        let is_hard = scene.lining().is_some() && machine.lining.is_none();
+        let hard = is_hard.then(|| "of rigid contact; --smooth has the lining of the scene".into());
+        let notes: Vec<String> = hard.into_iter().chain(scene.tuned_note()).collect();
         let locks = lock_windows(machine, speed);
         let window = locks.first();
         sheet.fact("form", self.form);
@@ -197,13 +201,6 @@ impl<'a> Request<'a> {
         let dangerous = dangerous.unwrap_or_default();
         Some(format!("Critical speed {}{lock}{dangerous}.", speed(critical)))
     }
-}
-
-/// Returns remarks on effects of the scene that the view ignores.
-fn notes(scene: &Scene, machine: &Machine) -> Vec<String> {
-    let hard = scene.lining().filter(|_| machine.lining.is_none());
-    let hard = hard.map(|_| "of rigid contact; --smooth has the lining of the scene".to_string());
-    hard.into_iter().chain(scene.tuned_note()).collect()
 }
 
 /// Describes windows of rotor speeds, such as those of a lock; empty without one.

@@ -4,8 +4,6 @@
 pub mod robust;
 pub mod words;
 
-use serde_json::json;
-
 use super::line::wrapped;
 use super::number::with_unit;
 use super::summary::conditions;
@@ -26,18 +24,14 @@ pub fn table(margins: &Margins, title: fn(LimitName) -> String) -> Table<'static
     let headings = headings.chain([Heading::from("margin").words("away")]).chain(people);
     let headings = headings.chain(parameters.iter().map(|path| Heading::filed(*path)));
     let row = |limit: &Limit| {
-        // Same word as in JSON.
-        let quantity = json!(limit.quantity).as_str().map_or(TableCell::Empty, TableCell::from);
-        let value = limit.value.map_or(TableCell::Empty, |value| {
-            TableCell::Told(value, with_unit(value, 6, limit.quantity.unit()))
-        });
+        let lobes = limit.lobes.map_or(String::new(), |lobes| format!(" m={lobes}"));
+        let value = limit
+            .value
+            .map(|value| TableCell::told(value, with_unit(value, 6, limit.quantity.unit())));
         let own = [
-            TableCell::Word(match limit.lobes {
-                Some(lobes) => format!("{} m={lobes}", title(limit.name)),
-                None => title(limit.name),
-            }),
-            quantity,
-            value,
+            (title(limit.name) + &lobes).into(),
+            limit.quantity.into(),
+            value.unwrap_or_default(),
             limit.present.into(),
             words::margin_cell(limit.margin),
         ];
@@ -45,7 +39,7 @@ pub fn table(margins: &Margins, title: fn(LimitName) -> String) -> Table<'static
         let moved = (0..STRONGEST).map(|place| {
             let found = strongest.get(place);
             let text = found.map(|(path, by)| format!("{} {}", symbol(path), words::change(*by)));
-            TableCell::Word(text.unwrap_or_default())
+            text.unwrap_or_default().into()
         });
         let by = parameters.iter().map(|path| limit.sensitivities.by(path).into());
         own.into_iter().chain(moved).chain(by).collect()

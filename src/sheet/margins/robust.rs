@@ -123,7 +123,7 @@ pub fn table(found: &Robustness, at: &str) -> Table<'static> {
         let what = if unit.is_empty() { row.name.into() } else { format!("{} [{unit}]", row.name) };
         let [low, high] = row.tried;
         let cells = [what, side(row.below, low), now, side(row.above, high)];
-        cells.map(TableCell::Word).into()
+        cells.map(TableCell::from).into()
     };
     Table::with_rows(headings, found.changes.iter().map(row).collect())
 }

@@ -35,7 +35,7 @@ pub fn to_limit(part: f64) -> String {
 /// is, empty if it is above `MOST_TIMES`. `None` gives an empty cell.
 pub fn margin_cell(part: Option<f64>) -> TableCell {
     let filed = |part: f64| if part > MOST_TIMES { f64::NAN } else { part };
-    part.map_or(TableCell::Empty, |part| TableCell::Told(filed(part), to_limit(part)))
+    part.map(|part| TableCell::told(filed(part), to_limit(part))).unwrap_or_default()
 }
 
 /// Formats the change of a limit, in per cent, for a change of one per cent of a parameter.

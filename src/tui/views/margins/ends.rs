@@ -42,7 +42,7 @@ pub fn draw(app: &App, buffer: &mut Buffer, at: ViewArea) {
     let inside = title(app, buffer, at, name, legend.as_slice());
     let role = if old { Role::Quiet } else { Role::Text };
     let rows = rows(margins, locked).into_iter();
-    let rows = rows.map(|(_, cells)| cells.map(TableCell::Word).into()).collect();
+    let rows = rows.map(|(_, cells)| cells.map(TableCell::from).into()).collect();
     let table = Table::with_rows([""; 3].map(Heading::shown), rows);
     // Without the headings.
     let lines = table.lines(usize::MAX, 1, |text| look.spell(text)).into_iter().skip(1);
