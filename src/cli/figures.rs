@@ -31,7 +31,12 @@ pub struct FiguresCommand {
 
 impl FiguresCommand {
     pub(super) fn run(&self, out: &mut dyn Write) -> Done {
-        let asked = self.asked()?;
+        let which = |word: &String| {
+            word.parse().map_err(|()| Refusal::of("--only", word, "numbers from 4 to 10"))
+        };
+        let only = self.only.iter().map(which).collect::<Result<Vec<Which>, _>>()?;
+        let mut asked = Which::of_paper();
+        asked.retain(|which| only.is_empty() || only.contains(which));
         let shown = self.out.display();
         std::fs::create_dir_all(&self.out).with_context(|| format!("cannot make {shown}"))?;
         for which in &asked {
@@ -50,19 +55,6 @@ impl FiguresCommand {
             bar.inc(1);
         }
         Ok(Status::Done)
-    }
-
-    fn asked(&self) -> Result<Vec<Which>, Refusal> {
-        if self.only.is_empty() {
-            return Ok(Which::of_paper());
-        }
-        let mut asked = Vec::new();
-        for word in &self.only {
-            let allowed = "numbers from 4 to 10";
-            let which = word.parse().map_err(|()| Refusal::of("--only", word, allowed))?;
-            asked.push(which);
-        }
-        Ok(Which::of_paper().into_iter().filter(|which| asked.contains(which)).collect())
     }
 
     fn save(

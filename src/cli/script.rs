@@ -100,7 +100,12 @@ fn changed(
 ) -> Result<CheckedScene, Refusal> {
     let refused = |error| Refusal::because(format!("{OPTION} {shown}: {error}"));
     let key = keys::find(path).map_err(refused)?;
-    let fixed = || Refusal::of(OPTION, shown, live_keys(before));
+    let fixed = || {
+        let keys = KEYS.iter().filter(|key| acts_live(key, before)).map(|key| key.path);
+        let (solver, keys) = (before.solver.kind, keys.collect::<Vec<_>>().join(", "));
+        let allowed = format!("{PULSE}, or a key that a running {solver} motion takes: {keys}");
+        Refusal::of(OPTION, shown, allowed)
+    };
     if !acts_live(key, before) {
         return Err(fixed());
     }
@@ -134,12 +139,4 @@ fn acts_of(path: &str, before: &CheckedScene, after: &CheckedScene) -> Vec<motio
 fn acts_live(key: &Key, scene: &CheckedScene) -> bool {
     let by_steps = scene.solver.kind == SolverKind::Explicit;
     key.live == Live::Always || (by_steps && key.live == Live::Steps)
-}
-
-/// Lists the changes that the running motion of a scene accepts, for error messages.
-fn live_keys(scene: &CheckedScene) -> String {
-    let keys: Vec<&str> =
-        KEYS.iter().filter(|key| acts_live(key, scene)).map(|key| key.path).collect();
-    let solver = scene.solver.kind;
-    format!("{PULSE}, or a key that a running {solver} motion takes: {}", keys.join(", "))
 }

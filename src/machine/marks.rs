@@ -35,29 +35,25 @@ pub(super) fn decimal_mark(numbers: &[Number], point_is_sure: bool) -> Result<ch
     if let Some((number, _)) = marked.iter().find(|(_, marks)| *marks == Marks::Thousands) {
         bail!(number.asked(&format!("is that {}", number.without_thousands())));
     }
-    let shown = marked.iter().find_map(|(number, marks)| match marks {
-        Marks::Decimal(mark) => Some((*mark, Some(*number))),
+    let sure = marked.iter().find_map(|(number, marks)| match marks {
+        Marks::Decimal(mark) => Some((*mark, *number)),
         _ => None,
     });
-    let shown = shown.or(point_is_sure.then_some(('.', None)));
-    let read = |(number, marks): &(&Number, Marks)| match (marks, shown) {
-        (Marks::Either(mark), Some((shown, _))) if *mark == shown => None,
-        (Marks::Either(_), _) => Some(number.either(shown)),
-        _ => None,
-    };
-    if let Some(question) = marked.iter().find_map(read) {
-        bail!(question);
+    let shown = sure.map(|(mark, _)| mark).or(point_is_sure.then_some('.'));
+    let is_other = |mark: &char| Some(*mark) != shown;
+    let either = |marks: &Marks| matches!(marks, Marks::Either(mark) if is_other(mark));
+    if let Some((number, _)) = marked.iter().find(|(_, marks)| either(marks)) {
+        bail!(number.either(shown, sure.map(|(_, number)| number)));
     }
-    let other = marked.iter().find_map(|(number, marks)| match (marks, shown?) {
-        (Marks::Decimal(mark), (shown, Some(first))) if *mark != shown => Some((number, first)),
-        _ => None,
-    });
-    if let Some((number, Number { path, cell })) = other {
+    let differs = |marks: &Marks| matches!(marks, Marks::Decimal(mark) if is_other(mark));
+    if let Some((_, Number { path, cell })) = sure
+        && let Some((number, _)) = marked.iter().find(|(_, marks)| differs(marks))
+    {
         bail!(number.asked(&format!(
             "which is the decimal mark, that of this number or that of {path}, {cell}"
         )));
     }
-    Ok(shown.map_or('.', |(mark, _)| mark))
+    Ok(shown.unwrap_or('.'))
 }
 
 impl Number {
@@ -97,15 +93,14 @@ impl Number {
     }
 
     /// Asks whether the mark separates decimals or thousands. `shown` is the decimal mark of the
-    /// table with a number that has it.
-    fn either(&self, shown: Option<(char, Option<&Number>)>) -> String {
+    /// table, `sure` a number that has it.
+    fn either(&self, shown: Option<char>, sure: Option<&Number>) -> String {
         let (number, _) = self.parts();
-        let (whole, decimals) = number.split_at(number.find(['.', ',']).unwrap_or(number.len()));
-        let mark = shown.map_or_else(|| decimals.chars().next().unwrap_or('.'), |(mark, _)| mark);
-        let decimals = decimals.trim_start_matches(['.', ',']);
-        let beside = shown.and_then(|(_, number)| number);
-        let beside = beside
-            .map_or(String::new(), |other| format!(" (beside {}, {})", other.path, other.cell));
+        let (whole, decimals) = number.split_once(['.', ',']).unwrap_or((number, ""));
+        let own = if number.contains(',') { ',' } else { '.' };
+        let mark = shown.unwrap_or(own);
+        let beside =
+            sure.map_or(String::new(), |other| format!(" (beside {}, {})", other.path, other.cell));
         self.asked(&format!("is that {whole}{mark}{decimals}0 or {whole}{decimals}{beside}"))
     }
 

@@ -46,7 +46,7 @@ pub fn reference_words(reference: &Reference) -> String {
 
 /// Returns the measurements as a table; files get more columns than the screen.
 pub fn table(report: &Precision) -> Table<'_> {
-    let head = |name, words, digits| Heading::from(name).words(words).digits(digits);
+    let head = |name, words| Heading::from(name).words(words);
     let columns: Vec<Column<'_, Row, Heading>> = vec![
         ("solver".into(), |row| row.way.solver.into()),
         ("contact".into(), |row| row.way.contact.into()),
@@ -55,15 +55,17 @@ pub fn table(report: &Precision) -> Table<'_> {
         (Heading::filed("tolerance"), |row| row.way.tolerance.into()),
         (Heading::filed("plain"), |row| row.way.plain.into()),
         (Heading::shown("step or tol."), |row| row.way.step_s.or(row.way.tolerance).into()),
-        (head("error_final", "error [g0]", 2), |row| row.error_final.into()),
-        (head("error_impact_time_s", "impact error [s]", 2), |row| row.error_impact_time_s.into()),
+        (head("error_final", "error [g0]"), |row| TableCell::digits(row.error_final, 2)),
+        (head("error_impact_time_s", "impact error [s]"), |row| {
+            TableCell::digits(row.error_impact_time_s, 2)
+        }),
         (Heading::filed("max_penetration_m"), |row| row.max_penetration_m.into()),
-        (head("wall_s", "time [us]", 3), |row| {
+        (head("wall_s", "time [us]"), |row| {
             TableCell::told(row.wall_s, short(rounded(1e6 * row.wall_s, 3)))
         }),
-        (head("ns_per_step", "ns/step", 3), |row| row.ns_per_step.into()),
-        (head("steps", "taken", 6), |row| row.steps.into()),
-        (head("steps_skipped", "skipped", 6), |row| row.steps_skipped.into()),
+        (head("ns_per_step", "ns/step"), |row| TableCell::digits(row.ns_per_step, 3)),
+        (head("steps", "taken"), |row| row.steps.into()),
+        (head("steps_skipped", "skipped"), |row| row.steps_skipped.into()),
         (Heading::filed("events"), |row| row.events.into()),
         ("verdict".into(), |row| row.verdict.into()),
         (Heading::filed("verdict_right"), |row| row.verdict_right.into()),

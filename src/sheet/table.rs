@@ -40,8 +40,6 @@ pub struct Heading {
     words: Option<Cow<'static, str>>,
     /// Whether the numbers are speeds \[rad/s\], which the screen shows in the unit the user chose.
     speeds: bool,
-    /// Largest number of significant digits on the screen; files have all digits.
-    digits: usize,
 }
 
 impl<S: Into<Cow<'static, str>>> From<S> for Heading {
@@ -55,12 +53,9 @@ impl<S: Into<Cow<'static, str>>> From<S> for Heading {
         } else {
             name.clone()
         };
-        Self { name: Some(name), words: Some(words), speeds, digits: DIGITS }
+        Self { name: Some(name), words: Some(words), speeds }
     }
 }
-
-/// Default number of significant digits on the screen.
-const DIGITS: usize = 6;
 
 impl Heading {
     /// Creates the heading of a column that files omit.
@@ -78,19 +73,11 @@ impl Heading {
         Self { words: Some(words.into()), ..self }
     }
 
-    /// Sets the largest number of significant digits on the screen.
-    pub fn digits(self, digits: usize) -> Self {
-        Self { digits, ..self }
-    }
-
     /// Formats a cell of this column for the screen.
     fn text(&self, cell: &TableCell) -> String {
         match (&cell.text, &cell.value, cell.number()) {
             (Some(text), ..) | (None, Value::String(text), _) => text.clone(),
-            (None, _, Some(x)) => {
-                let x = if self.speeds { per_speed(x) } else { x };
-                short(if self.digits < DIGITS { rounded(x, self.digits) } else { x })
-            }
+            (None, _, Some(x)) => short(if self.speeds { per_speed(x) } else { x }),
             (None, Value::Null, None) => "-".to_string(),
             (None, value, None) => value.to_string(),
         }
@@ -101,6 +88,11 @@ impl TableCell {
     /// Creates a number for files with its text for the screen.
     pub fn told(x: f64, text: String) -> Self {
         Self { text: Some(text), ..Self::from(x) }
+    }
+
+    /// Creates a number that the screen shows with at most `digits` significant digits.
+    pub fn digits(x: Option<f64>, digits: usize) -> Self {
+        x.map(|x| Self::told(x, short(rounded(x, digits)))).unwrap_or_default()
     }
 
     /// Returns the number in the cell; `None` for a whole one, which counts something.
@@ -320,12 +312,9 @@ mod tests {
 
     #[test]
     fn people_and_files_have_columns_of_their_own() {
-        let headings = [
-            Heading::from("value_n").words("value").digits(2),
-            Heading::filed("exact"),
-            Heading::shown(""),
-        ];
-        let first = vec![1.234.into(), 5.0.into(), "wrong".into()];
+        let headings =
+            [Heading::from("value_n").words("value"), Heading::filed("exact"), Heading::shown("")];
+        let first = vec![TableCell::digits(Some(1.234), 2), 5.0.into(), "wrong".into()];
         let second =
             vec![TableCell::told(2000.0, "2 kN".into()), f64::NAN.into(), TableCell::default()];
         let mut table = Table::with_rows(headings, vec![first, second]);

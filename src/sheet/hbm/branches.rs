@@ -2,7 +2,7 @@
 
 use super::view::{Request, View};
 use crate::sheet::Sheet;
-use crate::sheet::table::{Column, Table, TableCell, columns};
+use crate::sheet::table::{Column, Table, columns};
 use rubscope_solver::harmonic::{
     Branches, Corner, Equilibrium, Form, Kind, Locked, LockedPoint, Threshold,
 };
@@ -85,16 +85,12 @@ const THRESHOLDS: &[Column<'_, Threshold>] = &columns! {
     below, above,
 };
 
-fn multiplier(state: &Equilibrium, index: usize) -> TableCell {
-    state.contacts.get(index).map(|contact| contact.multiplier_n).into()
-}
-
 const STATES: &[Column<'_, Equilibrium>] = &columns! {
     speed_rad_s,
     state: |state| state.kind.into(),
     character,
-    multiplier_a_n: |state| multiplier(state, 0),
-    multiplier_b_n: |state| multiplier(state, 1),
+    multiplier_a_n: |state| state.contacts.first().map(|contact| contact.multiplier_n).into(),
+    multiplier_b_n: |state| state.contacts.get(1).map(|contact| contact.multiplier_n).into(),
     amplitude_m,
     // At rest there is no drive power.
     power_w: |state| (state.kind != Kind::Rest).then_some(state.power_w).into(),

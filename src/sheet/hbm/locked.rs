@@ -4,7 +4,7 @@ use super::view::{Request, View};
 use crate::sheet::Sheet;
 use crate::sheet::number::speed;
 use crate::sheet::table::{Column, Table, columns};
-use rubscope_solver::harmonic::{Form, LockedPoint, Sweep};
+use rubscope_solver::harmonic::{Form, LockedPoint};
 use rubscope_solver::scene::SceneError;
 
 /// The view without an option.
@@ -18,7 +18,19 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
     }
     let sides = sweep.corner.sides();
     let blades = sides.map(|side| request.machine.polygon.blades_of_side(side));
-    sheet.line(held(&sweep, &blades));
+    let damping = match (sweep.damped, sweep.form) {
+        (true, _) => "damped",
+        (false, Form::Printed) => "undamped as in the paper",
+        (false, _) => "undamped",
+    };
+    let [a, b] = blades
+        .each_ref()
+        .map(|blades| blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join(" "));
+    sheet.line(format!(
+        "Locked motion held between a: {a} and b: {b}; form {}, {damping}. A negative multiplier \
+         pushes; a positive one pulls, which a real contact cannot do.",
+        sweep.form
+    ));
     if let Some(first) = sweep.missing.first() {
         sheet.line(format!(
             "No locked motion at {} of {} speeds, the first of them {}: the blades are so soft that \
@@ -42,23 +54,6 @@ pub fn add_points<'a>(points: impl AsRef<[LockedPoint]> + 'a, sheet: &mut Sheet<
     sheet.chart("angle of the blades [rad]", &[["alpha_a_rad", "α_a"], ["alpha_b_rad", "α_b"]]);
     let amplitudes = [["u_cc_m", "u_cc"], ["u_cs_m", "u_cs"], ["amplitude_m", "|u|"]];
     sheet.chart("casing [m]", &amplitudes);
-}
-
-/// Names the blades that hold the wave, and the equations.
-fn held(sweep: &Sweep, blades: &[Vec<u32>; 2]) -> String {
-    let damping = match (sweep.damped, sweep.form) {
-        (true, _) => "damped",
-        (false, Form::Printed) => "undamped as in the paper",
-        (false, _) => "undamped",
-    };
-    let [a, b] = blades
-        .each_ref()
-        .map(|blades| blades.iter().map(|blade| format!("#{blade}")).collect::<Vec<_>>().join(" "));
-    format!(
-        "Locked motion held between a: {a} and b: {b}; form {}, {damping}. A negative multiplier \
-         pushes; a positive one pulls, which a real contact cannot do.",
-        sweep.form
-    )
 }
 
 const POINTS: &[Column<'_, LockedPoint>] = &columns! {

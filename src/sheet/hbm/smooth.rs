@@ -42,7 +42,9 @@ fn fill(request: &Request<'_>, sheet: &mut Sheet<'_>) -> Result<(), SceneError> 
         rests.push((lining.rest(speed), lining.is_bounded(speed), lasting));
         cycles.extend(here);
     }
-    let ([from, to], fastest) = (request.span(), request.fastest());
+    let from = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let to = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let fastest = request.fastest();
     let pressed = lining.stiffness_at_rest() > 0.0;
     let hopf = if pressed && from < to { lining.hopf_points([from, to])? } else { Vec::new() };
     let shifted = shifted_coincidence(scene, fastest);
@@ -138,29 +140,21 @@ const CYCLES: &[Column<'_, Cycle>] = &columns! {
     character: |cycle| word(cycle.stable),
 };
 
-/// Columns of the waves that are at rest in the frame of the blades.
+/// Columns of the waves that are at rest in the frame of the blades, with the first blade of each
+/// group that pushes.
 const STATES: &[Column<'_, LiningState>] = &columns! {
     speed_rad_s, pushing,
-    push_a_n: |state| push(state, 0),
-    push_b_n: |state| push(state, 1),
-    push_c_n: |state| push(state, 2),
+    push_a_n: |state| state.pushes.first().map(|push| push.push_n).into(),
+    push_b_n: |state| state.pushes.get(1).map(|push| push.push_n).into(),
+    push_c_n: |state| state.pushes.get(2).map(|push| push.push_n).into(),
     casing_m, blade_rad, growth_1_s,
     character: |state| word(state.stable),
     frequency_rad_s,
-    blade_a: |state| blade(state, 0),
-    blade_b: |state| blade(state, 1),
-    blade_c: |state| blade(state, 2),
+    blade_a: |state| state.pushes.first().and_then(|push| push.blades.first()).into(),
+    blade_b: |state| state.pushes.get(1).and_then(|push| push.blades.first()).into(),
+    blade_c: |state| state.pushes.get(2).and_then(|push| push.blades.first()).into(),
 };
 
 fn word(stable: bool) -> TableCell {
     if stable { "stable" } else { "unstable" }.into()
-}
-
-fn push(state: &LiningState, place: usize) -> TableCell {
-    state.pushes.get(place).map(|push| push.push_n).into()
-}
-
-/// Returns the first blade of a group that pushes.
-fn blade(state: &LiningState, place: usize) -> TableCell {
-    state.pushes.get(place).and_then(|push| push.blades.first().copied()).into()
 }

@@ -116,12 +116,6 @@ impl<'a> Request<'a> {
         self.speeds.iter().copied().max_by(further).unwrap_or(self.scene.operation.speed_rad_s)
     }
 
-    /// Returns the lowest and the highest of the speeds, by their signed values \[rad/s\].
-    pub(super) fn span(&self) -> [f64; 2] {
-        let least = self.speeds.iter().copied().fold(f64::INFINITY, f64::min);
-        [least, self.speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
-    }
-
     /// Refuses unequal tips and an out-of-round casing if the view is not derived for them.
     fn refuse_uneven(&self, view: &View) -> Result<(), SceneError> {
         // Tips that are all longer by the same length are equal.

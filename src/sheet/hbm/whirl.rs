@@ -3,7 +3,7 @@
 
 use super::view::{Request, View, all_speeds};
 use crate::sheet::Sheet;
-use crate::sheet::table::{Column, Table, TableCell};
+use crate::sheet::table::{Column, Table};
 use rubscope_solver::harmonic::{
     RoundWhirl, RoundWhirlLoads, Rubbing, SpeedRanges, undamped_flutter_speed,
 };
@@ -85,18 +85,14 @@ impl WhirlRow {
 const WHIRLS: &[Column<'_, WhirlRow>] = &[
     ("speed_rad_s", |row| row.speed_rad_s.into()),
     ("state", |row| <&str>::from(row.state).into()),
-    ("omega_rad_s", |row| figure(row, |(wave, _)| wave.omega_rad_s)),
-    ("s_rad_s", |row| figure(row, |(wave, _)| wave.s_rad_s)),
-    ("growth_per_s", |row| figure(row, |(wave, _)| wave.growth_per_s)),
-    ("push_n", |row| figure(row, |(_, loads)| loads.push_n)),
-    ("casing_m", |row| figure(row, |(_, loads)| loads.casing_m)),
-    ("blade_rad", |row| figure(row, |(_, loads)| loads.blade_rad)),
-    ("stiffness_n_per_m", |row| figure(row, |(wave, _)| wave.stiffness_n_per_m)),
-    ("casing_w", |row| figure(row, |(_, loads)| loads.casing_w)),
-    ("blades_w", |row| figure(row, |(_, loads)| loads.blades_w)),
-    ("friction_w", |row| figure(row, |(_, loads)| loads.friction_w)),
+    ("omega_rad_s", |row| row.wave.map(|(wave, _)| wave.omega_rad_s).into()),
+    ("s_rad_s", |row| row.wave.map(|(wave, _)| wave.s_rad_s).into()),
+    ("growth_per_s", |row| row.wave.map(|(wave, _)| wave.growth_per_s).into()),
+    ("push_n", |row| row.wave.map(|(_, loads)| loads.push_n).into()),
+    ("casing_m", |row| row.wave.map(|(_, loads)| loads.casing_m).into()),
+    ("blade_rad", |row| row.wave.map(|(_, loads)| loads.blade_rad).into()),
+    ("stiffness_n_per_m", |row| row.wave.map(|(wave, _)| wave.stiffness_n_per_m).into()),
+    ("casing_w", |row| row.wave.map(|(_, loads)| loads.casing_w).into()),
+    ("blades_w", |row| row.wave.map(|(_, loads)| loads.blades_w).into()),
+    ("friction_w", |row| row.wave.map(|(_, loads)| loads.friction_w).into()),
 ];
-
-fn figure(row: &WhirlRow, of: fn(&(RoundWhirl, RoundWhirlLoads)) -> f64) -> TableCell {
-    row.wave.as_ref().map(of).into()
-}

@@ -45,24 +45,18 @@ pub fn table(margins: &Margins, title: fn(LimitName) -> String) -> Table<'static
         own.into_iter().chain(moved).chain(by).collect()
     };
     let mut table = Table::with_rows(headings, margins.limits.iter().map(row).collect());
-    for (note, names) in notes(margins) {
-        table.note(format!("{names}: {note}."));
-    }
-    table
-}
-
-/// Groups equal notes of the limits: each note, and the names of the limits that have it.
-fn notes(margins: &Margins) -> Vec<(String, String)> {
-    let mut found: Vec<(String, String)> = Vec::new();
+    // Each note of the limits, with the names of those that have it.
+    let mut notes: Vec<(String, String)> = Vec::new();
     for limit in &margins.limits {
         let Some(note) = &limit.note else { continue };
         let note = if limit.value.is_none() { format!("none, as {note}") } else { note.clone() };
-        match found.iter_mut().find(|(known, _)| *known == note) {
+        match notes.iter_mut().find(|(known, _)| *known == note) {
             Some((_, names)) => names.push_str(&format!(", {}", limit.name)),
-            None => found.push((note, limit.name.to_string())),
+            None => notes.push((note, limit.name.to_string())),
         }
     }
-    found
+    notes.iter().for_each(|(note, names)| table.note(format!("{names}: {note}.")));
+    table
 }
 
 /// Returns the sheet of the margins; `command` reproduces it.

@@ -116,18 +116,15 @@ pub fn strokes(number: usize, r: f64) -> Vec<Vec<Place>> {
 
 /// Returns the colour of a style as SVG writes it.
 pub fn colour(style: Style) -> String {
-    let index = match style {
-        Style::Faint => return written([130, 130, 130]),
-        Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Bars(n) => n,
-        Style::Discs(n, _) | Style::Rings(n, _) => n,
-        Style::Cells(verdict) => return written(colour_of(verdict)),
-        Style::Dots => return written([60, 60, 60]),
-        Style::Edge => return written([0, 0, 0]),
+    let numbered = |number: usize| COLOURS[number % COLOURS.len()];
+    let [red, green, blue] = match style {
+        Style::Faint => [130; 3],
+        Style::Line(n) | Style::Dashed(n) | Style::Dotted(n) | Style::Bars(n) => numbered(n),
+        Style::Discs(n, _) | Style::Rings(n, _) => numbered(n),
+        Style::Cells(verdict) => colour_of(verdict),
+        Style::Dots => [60; 3],
+        Style::Edge => [0; 3],
     };
-    written(COLOURS[index % COLOURS.len()])
-}
-
-fn written([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
