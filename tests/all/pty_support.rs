@@ -322,22 +322,26 @@ impl Terminal {
         self.process = children.unwrap().split_whitespace().next().unwrap().parse().unwrap();
     }
 
-    /// Sends a signal to the program.
+    /// Sends a signal to the program, which may have ended.
     pub fn signal(&self, signal: &str) {
         let id = self.process.to_string();
         let sent = Command::new("kill").args(["-s", signal, &id]).status().unwrap();
-        assert!(sent.success(), "kill -s {signal}");
+        assert!(sent.success() || self.state().is_none(), "kill -s {signal}");
     }
 
     /// Waits until the program is stopped (`T`) or has ended (`Z`), where the system tells it
     /// in a file.
     pub fn wait_for_state(&self, letter: char) {
-        let file = format!("/proc/{}/stat", self.process);
         patiently(&format!("it is not {letter}"), || {
             std::thread::sleep(Duration::from_millis(5));
-            let state = std::fs::read_to_string(&file).ok();
-            state.is_none_or(|state| state.contains(&format!(") {letter} "))).then_some(())
+            self.state().is_none_or(|state| state == letter).then_some(())
         });
+    }
+
+    /// The letter of its state; none where no file tells it, and of a program that is gone.
+    pub fn state(&self) -> Option<char> {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.process)).ok()?;
+        stat.rsplit_once(") ")?.1.chars().next()
     }
 
     /// The processor time of the program so far, where the system tells it in a file, and whether
