@@ -296,7 +296,7 @@ pub(super) fn unknown(path: &str) -> SceneError {
     let mut names: Vec<String> = of_table.map(|key| key.path.into()).collect();
     if names.is_empty() {
         let all = |key| table_of(key).map_or(key.path.into(), |table| format!("{table}.*"));
-        names = KEYS.iter().map(all).collect();
+        names = std::iter::once("schema".into()).chain(KEYS.iter().map(all)).collect();
         names.dedup();
     }
     SceneError::UnknownKey { key: path.to_string(), allowed: names.join(", ") }

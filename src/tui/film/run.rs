@@ -160,17 +160,23 @@ impl Film {
 
     /// Computes `u_c` and `u_s` of the casing \[m\] up to the end of the complete film, as far as
     /// `go_on` lets it: over the last part, or over its end if the interval between two samples
-    /// would exceed `longest` \[s\]. Returns the start and the interval \[s\] too.
+    /// would exceed `longest` \[s\]. A motion by steps is sampled at whole steps: samples that are
+    /// early by parts of a step would add lines that are not in the motion. Returns the start and the
+    /// interval \[s\] too.
     pub fn signal(&self, longest: f64, go_on: GoOn<'_>) -> (f64, f64, Vec<[f64; 2]>) {
         let end = self.ahead.motion.t_s().min(self.plan.end_s);
-        let interval = longest.min((end - self.plan.from_s) / f64::from(SAMPLES));
-        let begin = end - f64::from(SAMPLES) * interval;
+        let part = longest.min((end - self.plan.from_s) / f64::from(SAMPLES));
+        let step = steps(&self.ahead.motion).map(|_| self.plan.scene.solver.step_s);
+        let whole = |step: f64| step * (part / step).ceil().min((longest / step).floor()).max(1.0);
+        let interval = step.map_or(part, whole);
+        let count = SAMPLES.min(((end - self.plan.from_s) / interval + 1e-6) as u32);
+        let begin = (end - f64::from(count) * interval).max(self.plan.from_s);
         let mut at = self.before(begin).unwrap_or(&self.ahead).clone();
         let sample = |k| {
             let reached = at.advance_while(begin + f64::from(k) * interval, go_on);
             (reached == Ok(true)).then(|| at.motion.state().u)
         };
-        (begin, interval, (1..=SAMPLES).map_while(sample).collect())
+        (begin, interval, (1..=count).map_while(sample).collect())
     }
 
     /// Returns the latest known motion at or before `t` \[s\].
@@ -341,6 +347,19 @@ mod tests {
             let verdicts = [live.verdict(), run.verdict()];
             assert_eq!(verdicts, [Some(Verdict::Whirl); 2], "{name} changed at {at} s");
         }
+    }
+
+    #[test]
+    fn a_motion_by_steps_is_sampled_at_whole_steps() {
+        let film = Film::new(plan("paper-nd3")).computed();
+        let (step, end) = (film.plan.scene.solver.step_s, &film.ahead.motion);
+        let (begin, interval, signal) = film.signal(4.95 * step, &|| true);
+        assert!((interval - 4.0 * step).abs() < 1e-9 * step, "{interval:e}");
+        assert!((begin + 2048.0 * interval - end.t_s()).abs() < 1e-6 * step, "{begin:e}");
+        assert_eq!((signal.len(), signal.last()), (2048, Some(&end.state().u)));
+        let (begin, interval, signal) = film.signal(1.0, &|| true);
+        assert!(0.0 <= begin && begin < interval, "{begin:e} {interval:e}");
+        assert_ne!(signal.first(), signal.last());
     }
 
     #[test]

@@ -42,9 +42,8 @@ impl Spectrum {
     pub fn of(scene: &Scene, (begin, interval, signal): (f64, f64, Vec<[f64; 2]>)) -> Self {
         let length = signal.len() as f64 * interval;
         let [from, to] = [begin, begin + length].map(|t| readable(t, "s"));
-        let of = |place: usize| amplitudes(signal.iter().map(|pair| pair[place]).collect());
         let (resolution, highest) = (TAU / length, highest(scene));
-        let (cosine, sine) = (of(0), of(1));
+        let [cosine, sine] = [0, 1].map(|k| amplitudes(signal.iter().map(|u| u[k]).collect()));
         let least = 10_f64.powf(DECADES.0);
         let series = |number, label, amplitudes: &[f64]| {
             let points = amplitudes.iter().enumerate();

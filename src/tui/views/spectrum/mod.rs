@@ -37,17 +37,15 @@ impl ViewPanel for SpectrumView {
         let names = ["frequency_rad_s", "u_c_m", "u_s_m"];
         let table = Table::new(names, spectrum.cosine.len(), |place| {
             let frequency = place as f64 * spectrum.resolution;
-            let [cosine, sine] = [&spectrum.cosine, &spectrum.sine].map(|part| part[place]);
-            [frequency, cosine, sine].map(TableCell::from).into()
+            [frequency, spectrum.cosine[place], spectrum.sine[place]].map(TableCell::from).into()
         });
         let mut sheet = Sheet::new("run", 1, app.view_command(), &app.scene);
         sheet.filed(None, table);
-        let title = &app.scene.title;
         sheet.picture(move || {
             let label = format!("frequency [{}]", frequency_unit()).into();
             let own = spectrum.panel.clone();
             let x = Quantity { label, factor: per_frequency(1.0), ..own.x };
-            Figure::new(title.clone(), &spectrum.note, vec![Panel { x, ..own }])
+            Figure::new(app.scene.title.clone(), &spectrum.note, vec![Panel { x, ..own }])
         });
         Some(sheet)
     }
