@@ -42,9 +42,8 @@ impl Spectrum {
     pub fn of(scene: &Scene, (begin, interval, signal): (f64, f64, Vec<[f64; 2]>)) -> Self {
         let length = signal.len() as f64 * interval;
         let [from, to] = [begin, begin + length].map(|t| readable(t, "s"));
-        let (resolution, highest) = (TAU / length, highest(scene));
+        let (resolution, highest, least) = (TAU / length, highest(scene), 10_f64.powf(DECADES.0));
         let [cosine, sine] = [0, 1].map(|k| amplitudes(signal.iter().map(|u| u[k]).collect()));
-        let least = 10_f64.powf(DECADES.0);
         let series = |number, label, amplitudes: &[f64]| {
             let points = amplitudes.iter().enumerate();
             let points = points.map(|(k, size)| (k as f64 * resolution, size.max(least)));
