@@ -166,3 +166,56 @@ fn name(row: &Row) -> String {
     let law = if row.other_law { ", other law" } else { "" };
     format!("{}{law}", series(&row.way))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rubscope_solver::motion::{Verdict, simulate, to_the_end};
+    use rubscope_solver::scene::Scene;
+    use rubscope_solver::study::precision::{Effort, Measure, ways};
+
+    fn rows(scene: &Scene, chosen: impl Fn(&Way) -> bool) -> (Reference, Vec<Row>) {
+        let measure = Measure::new(scene, Effort::QUICK, &to_the_end).unwrap().unwrap();
+        let rows = ways(scene, Effort::QUICK)
+            .into_iter()
+            .filter(chosen)
+            .map(|way| measure.row(way, Effort::QUICK, &to_the_end).unwrap().unwrap())
+            .collect();
+        (measure.reference().clone(), rows)
+    }
+
+    #[test]
+    fn errors_of_the_explicit_solver_fall_with_its_step() {
+        let (reference, rows) = rows(&Scene::base(), |way| {
+            way.model == ModelSize::Rigid
+                && way.contact == ContactLaw::Unilateral
+                && way.solver == SolverKind::Explicit
+        });
+        assert!(reference.error.unwrap() < 1e-12 && !reference.sensitive);
+        let errors: Vec<f64> = rows.iter().map(|row| row.error_final.unwrap()).collect();
+        assert_eq!(errors.len(), 4);
+        assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "{errors:?}");
+        // First order in contact: two decades of step give two decades of error.
+        assert!((errors[0] / errors[3]).log10() > 1.7, "{errors:?}");
+        assert!(rows.iter().all(|row| row.verdict_right == Some(true)));
+    }
+
+    #[test]
+    fn the_event_solver_is_exact_at_every_tolerance_that_is_tight() {
+        let (_, rows) = rows(&Scene::base(), |way| {
+            way.solver == SolverKind::Event && way.tolerance <= Some(1e-9)
+        });
+        assert!(rows.iter().all(|row| row.error_final.unwrap() < 1e-8), "{rows:?}");
+    }
+
+    /// Pulls are legitimate under the bilateral law unless the verdict is a lock by pushes.
+    #[test]
+    fn an_adhesive_contact_of_the_law_that_pulls_is_no_failure() {
+        let changes = [("solver.contact", "bilateral"), ("operation.speed_rad_s", "400")];
+        let scene = Scene::builtin("paper-nd3").unwrap().with(&changes).unwrap();
+        let report = simulate(&scene);
+        assert_eq!(report.outcome.verdict, Verdict::Adhesive);
+        assert!(report.outcome.contacts.iter().any(|contact| contact.multiplier_n > 1.0));
+        assert_eq!(report.failure, None);
+    }
+}
