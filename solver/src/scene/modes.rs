@@ -190,6 +190,10 @@ impl Structure {
     }
 
     fn parsed(&self, text: &str) -> Result<Vec<Mode>, SceneError> {
+        // Most scenes have no modes, and each of their checks comes here.
+        if text == "[]" {
+            return Ok(Vec::new());
+        }
         let read = format!("modes = {text}").parse::<Table>().ok();
         match read.as_ref().and_then(|table| table.get("modes")) {
             Some(Toml::Array(items)) if read.as_ref().is_some_and(|table| table.len() == 1) => {
