@@ -170,7 +170,7 @@ impl Key {
             (Value::Numbers(list), Allowed::Numbers { size, most }) => {
                 list.len() <= most && list.iter().all(|x| x.abs() <= size)
             }
-            (Value::Text(text), Allowed::Modes(structure)) => return structure.check(text),
+            (Value::Text(text), Allowed::Modes(list)) => return list.parsed(text).map(drop),
             (Value::Text(text), Allowed::Text { most }) => {
                 let length = text.chars().count();
                 if length > most {

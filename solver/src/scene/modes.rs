@@ -181,15 +181,11 @@ impl Structure {
         [(DIAMETERS, mode.nodal_diameters.to_string())].into_iter().chain(numbers)
     }
 
-    /// Checks that a text is such a list.
+    /// Reads such a list from its text.
     ///
     /// # Errors
-    /// States the reason why it is not.
-    pub(super) fn check(&self, text: &str) -> Result<(), SceneError> {
-        self.parsed(text).map(drop)
-    }
-
-    fn parsed(&self, text: &str) -> Result<Vec<Mode>, SceneError> {
+    /// States the reason why it is none.
+    pub(super) fn parsed(&self, text: &str) -> Result<Vec<Mode>, SceneError> {
         // Most scenes have no modes, and each of their checks comes here.
         if text == "[]" {
             return Ok(Vec::new());
@@ -207,7 +203,7 @@ impl Structure {
         }
     }
 
-    /// Returns the modes of a text that has passed [`check`](Self::check).
+    /// Returns the modes of a text that [`parsed`](Self::parsed) accepts.
     pub(super) fn modes(&self, text: &str) -> Vec<Mode> {
         self.parsed(text).unwrap_or_default()
     }
