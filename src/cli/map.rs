@@ -109,7 +109,7 @@ impl MapCommand {
             None => {
                 let usual = Range { from: 0.0, to, count };
                 let Range { from, to, count } = resolved.range(path).unwrap_or(usual);
-                Axis::new(path, from, to, count as u32, false)
+                Axis::new(path, from, to, count as u64, false)
             }
         };
         // Steps of 10 rad/s (or 100 rpm) and 50 kN; both ranges end at a round number in the unit

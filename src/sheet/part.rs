@@ -60,7 +60,7 @@ fn plan(first: &str) -> anyhow::Result<MapPlan> {
         .strip_prefix(START)
         .ok_or_else(|| anyhow!("its first line does not begin with {START}"))?;
     let Origin { scene, x, y, sensitivity } = serde_json::from_str(origin)?;
-    let axis = |axis: Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count, axis.log);
+    let axis = |axis: Axis| Axis::new(&axis.path, axis.from, axis.to, axis.count.into(), axis.log);
     let scene = Scene::from_toml_unchecked(&scene)?;
     let plan = MapPlan { scene, x: axis(x)?, y: axis(y)?, sensitivity };
     plan.check()?;

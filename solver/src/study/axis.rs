@@ -59,20 +59,18 @@ impl Axis {
     ///
     /// # Errors
     /// The key is unknown or not numeric, or the range is not allowed.
-    pub fn new(path: &str, from: f64, to: f64, count: u32, log: bool) -> Result<Self, SceneError> {
+    pub fn new(path: &str, from: f64, to: f64, count: u64, log: bool) -> Result<Self, SceneError> {
         let key = key_of(path)?;
         let whole = matches!(key.allowed, Allowed::Whole { .. });
         let [from, to] = if whole { [from.round(), to.round()] } else { [from, to] };
-        let axis = Self { path: path.to_string(), from, to, count, log };
         let refused = |allowed: &str| {
             let (log, from, to) =
                 (if log { "log:" } else { "" }, Value::Real(from), Value::Real(to));
             let range = format!("{log}{from}:{to}:{count}");
             SceneError::refused(format!("axis {path}"), range, allowed)
         };
-        if !(1..=MOST_VALUES).contains(&count) {
-            return Err(refused("a count from 1 to 100000"));
-        }
+        let allowed = u32::try_from(count).ok().filter(|count| (1..=MOST_VALUES).contains(count));
+        let count = allowed.ok_or_else(|| refused("a count from 1 to 100000"))?;
         if log && !(from > 0.0 && to > 0.0) {
             return Err(refused("log: with both ends above 0"));
         }
@@ -84,7 +82,7 @@ impl Axis {
         for end in [from, to] {
             key.check(&as_value(key, end))?;
         }
-        Ok(axis)
+        Ok(Self { path: path.to_string(), from, to, count, log })
     }
 
     /// Reads `PATH=FROM:TO:COUNT` or `PATH=log:FROM:TO:COUNT`.
@@ -103,8 +101,7 @@ impl Axis {
         let (log, ends) = (ends.is_some(), ends.unwrap_or(range));
         let name = format!("axis {path}");
         let ([from, to], count) = parse_range(&name, ends, key_of(path)?.quantity(), FORM)?;
-        // A count that exceeds `u32` is rejected by `new` as too large.
-        Self::new(path, from, to, u32::try_from(count).unwrap_or(u32::MAX), log)
+        Self::new(path, from, to, count as u64, log)
     }
 
     /// Returns whether the key is whole-numbered.

@@ -152,7 +152,7 @@ impl MapAxis {
                 }
             }
         };
-        Axis::new(self.path, from, to, count, log).map_err(|error| error.to_string())
+        Axis::new(self.path, from, to, count.into(), log).map_err(|error| error.to_string())
     }
 }
 
