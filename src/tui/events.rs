@@ -58,9 +58,14 @@ impl ScreenEvent {
 /// Fails if the system cannot start a thread or watch signals.
 pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     use super::{ending, job, terminal};
+    use nix::sys::signal::{SigSet, SigmaskHow};
     use signal_hook::consts::{SIGCONT, SIGTSTP, SIGWINCH};
     let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]);
-    let mut signals = signal_hook::iterator::Signals::new(watched)?;
+    // They wait meanwhile: signal-hook loses one that arrives while its handler is installed.
+    let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
+    let signals = signal_hook::iterator::Signals::new(watched);
+    before.thread_set_mask()?;
+    let mut signals = signals?;
     let watch = move || {
         for signal in signals.forever() {
             match signal {
