@@ -115,6 +115,7 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
         .into_iter()
         .flat_map(|verdict| others.clone().map(move |other| (verdict, other)))
     {
+        let run = facts(verdict);
         for law in [ContactLaw::Unilateral, ContactLaw::Bilateral, ContactLaw::Smooth] {
             for (wrong, change) in histories() {
                 let early = matches!(verdict, Verdict::Failed | Verdict::Divergent);
@@ -136,7 +137,7 @@ fn every_verdict_law_failure_and_history_has_whole_sentences_at_every_width() {
                                 .clone()
                                 .map(|reason| Failure { t_s: 1.234_5e-4, reason }),
                             other,
-                            ..facts(verdict)
+                            ..run.clone()
                         };
                         change(&mut facts);
                         assert_reads_well(&facts);
