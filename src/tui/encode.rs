@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use crate::tui::app::App;
     use crate::tui::{Marker, theme::Theme};
-    use proptest::prelude::*;
+    use fastrand::Rng;
     use ratatui::Terminal;
     use ratatui::backend::{Backend, CrosstermBackend, TestBackend};
     use ratatui::buffer::Buffer;
@@ -116,46 +116,47 @@ mod tests {
         "\u{1cd00}",
     ];
 
-    fn colour() -> impl Strategy<Value = Color> {
-        let named = prop::sample::select(vec![
-            Color::Reset,
-            Color::Black,
-            Color::Red,
-            Color::Yellow,
-            Color::Magenta,
-            Color::Gray,
-            Color::DarkGray,
-            Color::LightRed,
-            Color::LightCyan,
-            Color::White,
-        ]);
-        prop_oneof![
-            8 => named,
-            1 => any::<u8>().prop_map(Color::Indexed),
-            1 => any::<[u8; 3]>().prop_map(|[r, g, b]| Color::Rgb(r, g, b)),
-        ]
+    const COLOURS: [Color; 10] = [
+        Color::Reset,
+        Color::Black,
+        Color::Red,
+        Color::Yellow,
+        Color::Magenta,
+        Color::Gray,
+        Color::DarkGray,
+        Color::LightRed,
+        Color::LightCyan,
+        Color::White,
+    ];
+
+    fn colour(rng: &mut Rng) -> Color {
+        match rng.u8(..10) {
+            0 => Color::Indexed(rng.u8(..)),
+            1 => Color::Rgb(rng.u8(..), rng.u8(..), rng.u8(..)),
+            _ => COLOURS[rng.usize(..COLOURS.len())],
+        }
     }
 
     /// Modifiers that the test's terminal parser supports; it keeps only the later of bold and dim.
-    fn modifier() -> impl Strategy<Value = Modifier> {
-        let weight = prop::sample::select(vec![Modifier::empty(), Modifier::BOLD, Modifier::DIM]);
+    fn modifier(rng: &mut Rng) -> Modifier {
+        let weight = [Modifier::empty(), Modifier::BOLD, Modifier::DIM][rng.usize(..3)];
         let others = [Modifier::ITALIC, Modifier::UNDERLINED, Modifier::REVERSED];
-        (weight, prop::sample::subsequence(others.to_vec(), 0..3))
-            .prop_map(|(weight, others)| others.into_iter().fold(weight, Modifier::union))
+        others.into_iter().filter(|_| rng.bool()).fold(weight, Modifier::union)
     }
 
-    fn frames(columns: u16, rows: u16) -> impl Strategy<Value = Vec<Vec<Drawn>>> {
-        let sign = prop::sample::select(SIGNS.to_vec());
-        let styles = prop::collection::vec((colour(), colour(), modifier()), 1..4);
-        let cell = (0..columns, 0..rows, sign, any::<prop::sample::Index>());
-        let frame = (styles, prop::collection::vec(cell, 0..120)).prop_map(|(styles, cells)| {
-            let drawn = |(x, y, sign, style): (_, _, _, prop::sample::Index)| {
-                let &(fg, bg, modifier) = style.get(&styles);
-                (x, y, sign, fg, bg, modifier)
+    fn frames(rng: &mut Rng, size: Rect) -> Vec<Vec<Drawn>> {
+        let counts: Vec<u8> = (0..rng.u8(1..6)).map(|_| rng.u8(..120)).collect();
+        let frame = |cells: u8| {
+            let styles: Vec<_> =
+                (0..rng.u8(1..4)).map(|_| (colour(rng), colour(rng), modifier(rng))).collect();
+            let cell = |_| {
+                let (fg, bg, modifier) = styles[rng.usize(..styles.len())];
+                let (x, y) = (rng.u16(..size.width), rng.u16(..size.height));
+                (x, y, SIGNS[rng.usize(..SIGNS.len())], fg, bg, modifier)
             };
-            cells.into_iter().map(drawn).collect()
-        });
-        prop::collection::vec(frame, 1..6)
+            (0..cells).map(cell).collect()
+        };
+        counts.into_iter().map(frame).collect()
     }
 
     fn terminal(size: Rect) -> vt100::Parser {
@@ -169,14 +170,13 @@ mod tests {
         size.positions().map(|place| screen.cell(place.y, place.x).cloned()).collect()
     }
 
-    proptest! {
-        #[test]
-        fn a_terminal_shows_the_same_as_with_the_usual_bytes(
-            (size, frames) in (2..30u16, 1..9u16).prop_flat_map(|(columns, rows)| {
-                (Just(Rect::new(0, 0, columns, rows)), frames(columns, rows))
-            }),
-            torn in any::<bool>(),
-        ) {
+    #[test]
+    fn a_terminal_shows_the_same_as_with_the_usual_bytes() {
+        for case in 0..256 {
+            let rng = &mut Rng::with_seed(case);
+            let size = Rect::new(0, 0, rng.u16(2..30), rng.u16(1..9));
+            let frames = frames(rng, size);
+            let torn = rng.bool();
             crossterm::style::force_color_output(true);
             let (mut usual, mut short) = (terminal(size), terminal(size));
             if torn {
@@ -197,7 +197,7 @@ mod tests {
                 bytes.clear();
                 write_cells(&mut bytes, size.width, changed.into_iter()).unwrap();
                 short.process(&bytes);
-                prop_assert_eq!(shown(&short, size), shown(&usual, size));
+                assert_eq!(shown(&short, size), shown(&usual, size), "case {case}");
                 before = after;
             }
         }

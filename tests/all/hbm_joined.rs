@@ -2,7 +2,7 @@
 //! docs/theory.md, section 10, and laws.
 
 use crate::close;
-use proptest::prelude::*;
+use crate::random::{each_case, one_of, within};
 use rubscope_solver::harmonic::{
     Form, flutters, lock_loads, locked_motion, undamped_flutter_speed,
 };
@@ -65,49 +65,48 @@ fn at_the_flutter_speed_a_whirl_has_no_bound() {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
-
-    /// Both push inside the windows and nowhere else.
-    #[test]
-    fn windows_end_where_a_push_changes_its_sign(
-        kappa in -0.6..0.6_f64, mu in 0.0..0.6_f64, tau in 0.0..0.4_f64,
-        zeta in 0.0..0.2_f64, backward: bool, parts in prop::collection::vec(0.0..1.0_f64, 8),
-    ) {
+/// Both push inside the windows and nowhere else.
+#[test]
+fn windows_end_where_a_push_changes_its_sign() {
+    each_case(1000, |rng| {
+        let [kappa, mu, tau, zeta] =
+            [-0.6..0.6, 0.0..0.6, 0.0..0.4, 0.0..0.2].map(|range| within(rng, range));
+        let parts = [(); 8].map(|()| within(rng, 0.0..1.0));
         let mut scene = scene([kappa, mu, mu * tau]);
         scene.casing.damping_ratio = zeta;
         let machine = scene.machine();
-        let sense = if backward { -1.0 } else { 1.0 };
+        let sense = one_of(rng, &[1.0, -1.0]);
         let windows = machine.lock_windows(sense);
         let push = |speed: f64| {
             machine.locked_multipliers(sense * speed).unwrap().iter().all(|&lambda| lambda < 0.0)
         };
         for window in &windows {
             if window.from > 0.0 {
-                prop_assert!(push(window.from * (1.0 + 1e-9)), "{window:?}");
-                prop_assert!(!push(window.from * (1.0 - 1e-9)), "{window:?}");
+                assert!(push(window.from * (1.0 + 1e-9)), "{window:?}");
+                assert!(!push(window.from * (1.0 - 1e-9)), "{window:?}");
             }
             if let Some(to) = window.to {
-                prop_assert!(push(to * (1.0 - 1e-9)), "{window:?}");
-                prop_assert!(!push(to * (1.0 + 1e-9)), "{window:?}");
+                assert!(push(to * (1.0 - 1e-9)), "{window:?}");
+                assert!(!push(to * (1.0 + 1e-9)), "{window:?}");
             }
         }
         for part in parts {
             let speed = 50.0 * (400.0_f64).powf(part);
-            let inside = windows.iter().any(|window| {
-                speed > window.from && window.to.is_none_or(|to| speed < to)
-            });
-            prop_assert_eq!(push(speed), inside, "{} {:?}", speed, windows);
+            let inside = windows
+                .iter()
+                .any(|window| speed > window.from && window.to.is_none_or(|to| speed < to));
+            assert_eq!(push(speed), inside, "{} {:?}", speed, windows);
         }
-    }
+    });
+}
 
-    /// The exact pair of nearly still blades is the closed form, and its motion that of
-    /// blades and casing as one.
-    #[test]
-    fn the_exact_pair_of_a_small_clearance_is_the_closed_form(
-        kappa in 0.05..0.4_f64, mu in 0.0..0.3_f64, mu_c in 0.0..0.1_f64,
-        speed in 350.0..900.0_f64, backward: bool,
-    ) {
+/// The exact pair of nearly still blades is the closed form, and its motion that of
+/// blades and casing as one.
+#[test]
+fn the_exact_pair_of_a_small_clearance_is_the_closed_form() {
+    each_case(1000, |rng| {
+        let [kappa, mu, mu_c] = [0.05..0.4, 0.0..0.3, 0.0..0.1].map(|range| within(rng, range));
+        let (speed, backward) = (within(rng, 350.0..900.0), rng.bool());
         let mut scene = scene([kappa, mu, mu_c]);
         scene.casing.radius_m = scene.bladed_disk.blade_length_m + 1e-9;
         let machine = scene.machine();
@@ -117,32 +116,33 @@ proptest! {
         let sweep = locked_motion(&machine, Form::Modal, true, None, &[speed]).unwrap();
         if let Some(point) = sweep.points.first() {
             for (exact, closed) in point.multipliers_n.iter().zip(closed) {
-                prop_assert!((exact - closed).abs() <= 1e-2 * size, "{exact} {closed}");
+                assert!((exact - closed).abs() <= 1e-2 * size, "{exact} {closed}");
             }
             let grows = Frame::at(&machine, speed).joined().iter().any(|root| root.re > 1e-2);
             let pushes = point.multipliers_n.iter().all(|&lambda| lambda <= 0.0);
-            prop_assert!(!pushes || point.stable != grows, "{point:?}");
+            assert!(!pushes || point.stable != grows, "{point:?}");
         }
-    }
+    });
+}
 
-    /// The mirror image of a machine turns the other way.
-    #[test]
-    fn a_mirrored_rotor_locks_as_the_mirror_image(
-        kappa in -0.4..0.4_f64, mu in 0.0..0.4_f64, mu_c in 0.0..0.1_f64,
-        speed in 300.0..900.0_f64,
-    ) {
+/// The mirror image of a machine turns the other way.
+#[test]
+fn a_mirrored_rotor_locks_as_the_mirror_image() {
+    each_case(1000, |rng| {
+        let [kappa, mu, mu_c] = [-0.4..0.4, 0.0..0.4, 0.0..0.1].map(|range| within(rng, range));
+        let speed = within(rng, 300.0..900.0);
         let (forward, backward) = (machine([kappa, mu, mu_c]), machine([-kappa, mu, mu_c]));
-        prop_assert_eq!(forward.lock_windows(1.0), backward.lock_windows(-1.0));
-        prop_assert_eq!(flutter_speed(&forward, 1.0), flutter_speed(&backward, -1.0));
+        assert_eq!(forward.lock_windows(1.0), backward.lock_windows(-1.0));
+        assert_eq!(flutter_speed(&forward, 1.0), flutter_speed(&backward, -1.0));
         let one = lock_loads(&forward, speed);
         let other = lock_loads(&backward, -speed);
-        prop_assert_eq!(one.is_some(), other.is_some());
+        assert_eq!(one.is_some(), other.is_some());
         if let Some((one, other)) = one.zip(other) {
             let size = one.pushes_n[0].abs().max(one.pushes_n[1].abs());
             for i in [0, 1] {
-                prop_assert!((one.pushes_n[i] - other.pushes_n[1 - i]).abs() <= 1e-9 * size);
+                assert!((one.pushes_n[i] - other.pushes_n[1 - i]).abs() <= 1e-9 * size);
             }
             close(other.amplitude_m, one.amplitude_m, 1e-9);
         }
-    }
+    });
 }

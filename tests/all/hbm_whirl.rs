@@ -2,7 +2,7 @@
 
 use crate::close;
 use crate::hbm_joined::scene;
-use proptest::prelude::*;
+use crate::random::{each_case, within};
 use rubscope_solver::harmonic::{RoundWhirl, round_whirls, whirl_spans};
 use rubscope_solver::model::{Frame, Machine};
 use rubscope_solver::scene::Scene;
@@ -43,10 +43,11 @@ fn at_the_fold_the_two_waves_are_one() {
     }
 }
 
-proptest! {
-    /// A wider clearance changes sizes alone.
-    #[test]
-    fn whirl_goes_with_the_clearance(speed in 420.0..500.0_f64, part in 0.1..10.0_f64) {
+/// A wider clearance changes sizes alone.
+#[test]
+fn whirl_goes_with_the_clearance() {
+    each_case(256, |rng| {
+        let (speed, part) = (within(rng, 420.0..500.0), within(rng, 0.1..10.0));
         let mut scene = Scene::base();
         scene.bladed_disk.radial_coupling = 0.3;
         let lasting = |machine: &Machine| {
@@ -61,14 +62,16 @@ proptest! {
         close(other.omega_rad_s, one.omega_rad_s, 1e-11);
         close(wider.push_n, loads.push_n * clearance, 1e-9);
         close(wider.casing_m, loads.casing_m * clearance, 1e-9);
-    }
+    });
+}
 
-    /// Roots are complete: as many waves as a dense scan sees, at the same places.
-    #[test]
-    fn every_wave_of_a_dense_scan_is_found(
-        kappa in -0.6..0.6_f64, mu in 0.0..0.6_f64, mu_c in 0.0..0.2_f64,
-        zetas in [0.003..0.2_f64, 0.003..0.2_f64], speed in 20.0..1500.0_f64,
-    ) {
+/// Roots are complete: as many waves as a dense scan sees, at the same places.
+#[test]
+fn every_wave_of_a_dense_scan_is_found() {
+    each_case(256, |rng| {
+        let [kappa, mu, mu_c] = [-0.6..0.6, 0.0..0.6, 0.0..0.2].map(|range| within(rng, range));
+        let zetas = [(); 2].map(|()| within(rng, 0.003..0.2));
+        let speed = within(rng, 20.0..1500.0);
         let mut machine = machine([kappa, mu, mu_c], None);
         machine.casing_damping_ratio = zetas[0];
         machine.casing_damping = 2.0 * zetas[0] * machine.omega_c * machine.casing_mass;
@@ -92,11 +95,11 @@ proptest! {
         let width = 2.0 * reach / f64::from(count);
         for omega in &seen {
             let near = |wave: &RoundWhirl| (wave.omega_rad_s - omega).abs() <= width;
-            prop_assert!(found.iter().any(near), "{omega}: {found:?}");
+            assert!(found.iter().any(near), "{omega}: {found:?}");
         }
         for wave in &found {
             let at = compliance(wave.omega_rad_s);
-            prop_assert!(at.im.abs() <= 1e-11 * at.re.abs() && at.re < 0.0);
+            assert!(at.im.abs() <= 1e-11 * at.re.abs() && at.re < 0.0);
             // Two within one step of the scan are not seen by it.
             let alone = |other: &RoundWhirl| {
                 other == wave || (other.omega_rad_s - wave.omega_rad_s).abs() > 2.0 * width
@@ -105,35 +108,37 @@ proptest! {
             let near = |omega: &f64| (wave.omega_rad_s - omega).abs() <= 2.0 * width;
             let edge = compliance(wave.omega_rad_s + width).re >= 0.0
                 || compliance(wave.omega_rad_s - width).re >= 0.0;
-            prop_assert!(!inside || edge || seen.iter().any(near), "{wave:?} not in {seen:?}");
+            assert!(!inside || edge || seen.iter().any(near), "{wave:?} not in {seen:?}");
         }
-    }
+    });
+}
 
-    /// The stiffest of a pair attracts, and never both.
-    #[test]
-    fn of_two_waves_the_stiffer_attracts(
-        kappa in 0.05..0.6_f64, mu in 0.0..0.4_f64, zeta in 0.003..0.1_f64,
-        speed in 380.0..700.0_f64,
-    ) {
+/// The stiffest of a pair attracts, and never both.
+#[test]
+fn of_two_waves_the_stiffer_attracts() {
+    each_case(256, |rng| {
+        let [kappa, mu, zeta, speed] =
+            [0.05..0.6, 0.0..0.4, 0.003..0.1, 380.0..700.0].map(|range| within(rng, range));
         if let [threshold, lasting] = waves(&machine([kappa, mu, 0.0], Some(zeta)), speed)[..] {
-            prop_assert!(lasting.attracts && !threshold.attracts, "{threshold:?} {lasting:?}");
+            assert!(lasting.attracts && !threshold.attracts, "{threshold:?} {lasting:?}");
         }
-    }
+    });
+}
 
-    /// The mirror image of a machine turns the other way: `kappa -> -kappa`.
-    #[test]
-    fn a_mirrored_rotor_whirls_as_the_mirror_image(
-        kappa in -0.6..0.6_f64, mu in 0.0..0.6_f64, mu_c in 0.0..0.2_f64,
-        speed in 100.0..900.0_f64,
-    ) {
+/// The mirror image of a machine turns the other way: `kappa -> -kappa`.
+#[test]
+fn a_mirrored_rotor_whirls_as_the_mirror_image() {
+    each_case(256, |rng| {
+        let [kappa, mu, mu_c] = [-0.6..0.6, 0.0..0.6, 0.0..0.2].map(|range| within(rng, range));
+        let speed = within(rng, 100.0..900.0);
         let forward = waves(&machine([kappa, mu, mu_c], None), speed);
         let backward = waves(&machine([-kappa, mu, mu_c], None), -speed);
-        prop_assert_eq!(forward.len(), backward.len());
+        assert_eq!(forward.len(), backward.len());
         for (one, other) in forward.iter().zip(&backward) {
             close(-other.omega_rad_s, one.omega_rad_s, 1e-12);
             close(other.stiffness_n_per_m, one.stiffness_n_per_m, 1e-10);
             close(other.blades_per_w, one.blades_per_w, 1e-10);
-            prop_assert_eq!(other.attracts, one.attracts);
+            assert_eq!(other.attracts, one.attracts);
         }
-    }
+    });
 }

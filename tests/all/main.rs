@@ -6,7 +6,6 @@
 
 use std::path::{Path, PathBuf};
 
-use proptest::prelude::ProptestConfig;
 use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
 use rubscope_solver::scene::CheckedScene;
 
@@ -63,6 +62,8 @@ mod pty_config;
 mod pty_signals;
 mod pty_support;
 mod python;
+#[path = "../../solver/tests/all/random.rs"]
+mod random;
 mod readme;
 mod scene_defaults;
 mod scene_modes;
@@ -91,13 +92,6 @@ mod tui_support;
 mod tui_time;
 mod tui_zoom;
 mod version;
-
-/// The number of random cases of a law; `PROPTEST_CASES` overrides it.
-fn drawn(cases: u32) -> ProptestConfig {
-    let given = ProptestConfig::default();
-    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
-    ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
-}
 
 /// A value is what is expected, up to this part of it.
 #[track_caller]

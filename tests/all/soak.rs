@@ -9,10 +9,10 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use proptest::prelude::Rng;
-use proptest::test_runner::{RngAlgorithm, TestRng};
+use fastrand::Rng;
 
 use crate::pty_support::{SHORT, Start, Terminal};
+use crate::random::one_of;
 
 /// Time between two actions: faster than any user.
 const PAUSE: Duration = Duration::from_millis(2);
@@ -68,17 +68,12 @@ fn answers(terminal: &mut Terminal) {
     terminal.send("?");
 }
 
-/// Draws from a list.
-fn one_of<T: Copy>(rng: &mut TestRng, list: &[T]) -> T {
-    list[rng.next_u32() as usize % list.len()]
-}
-
 /// One thing that a user, a terminal or a window manager does.
-fn act(session: &mut Terminal, rng: &mut TestRng) {
+fn act(session: &mut Terminal, rng: &mut Rng) {
     let keys: Vec<char> = KEYS.chars().collect();
-    match rng.next_u32() % 100 {
+    match rng.u32(..100) {
         0..70 => {
-            let count = rng.next_u32() % 8;
+            let count = rng.u32(..8);
             let text: String = (0..=count).map(|_| one_of(rng, &keys)).collect();
             session.send(&text);
         }
@@ -92,10 +87,7 @@ fn act(session: &mut Terminal, rng: &mut TestRng) {
             session.send(one_of(rng, &["s", "e"]));
             session.send(&format!("{}{name}\ry", "\x7f".repeat(40)));
         }
-        90..96 => {
-            let (width, height) = (10 + rng.next_u32() % 200, 4 + rng.next_u32() % 60);
-            session.resize(width as u16, height as u16);
-        }
+        90..96 => session.resize(rng.u16(10..210), rng.u16(4..64)),
         _ => session.send_bytes(one_of(rng, &ODD)),
     }
 }
@@ -107,7 +99,7 @@ fn soak(done: impl Fn(Duration, usize) -> bool) {
     let locked = folder.path().join("locked");
     fs::create_dir(&locked).unwrap();
     fs::set_permissions(&locked, std::os::unix::fs::PermissionsExt::from_mode(0o555)).unwrap();
-    let mut rng = TestRng::from_seed(RngAlgorithm::XorShift, b"sixteen of them.");
+    let mut rng = Rng::with_seed(16);
     let mut session = open(folder.path());
     session.wait_for("speed Ω");
     let began = Instant::now();

@@ -21,7 +21,6 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test states what must hold")]
 
-use proptest::prelude::ProptestConfig;
 use rubscope_solver::motion::{RunReport, Sampling, Script, run_to_end};
 use rubscope_solver::scene::CheckedScene;
 
@@ -49,16 +48,10 @@ mod motion_laws;
 mod pauses;
 mod plain;
 mod plain_stepper;
+mod random;
 mod rebound;
 mod tips_support;
 mod verdicts;
-
-/// The number of random cases of a law; `PROPTEST_CASES` overrides it.
-fn drawn(cases: u32) -> ProptestConfig {
-    let given = ProptestConfig::default();
-    let cases = if std::env::var_os("PROPTEST_CASES").is_some() { given.cases } else { cases };
-    ProptestConfig { cases, failure_persistence: None, max_shrink_iters: 200, ..given }
-}
 
 /// A value is what is expected, up to this difference.
 #[track_caller]

@@ -1,112 +1,106 @@
 //! A verdict reached early is the verdict of the whole run, with any excitation. A new kind of
 //! scene is a part of `scenes`.
 
-use crate::plain::scenes::{in_corner, scene};
-use proptest::prelude::*;
+use crate::plain::scenes::{in_corner, scene, taken_scene};
+use crate::random::{each_case, one_of, scale, within};
+use fastrand::Rng;
 
 use rubscope_solver::motion::{
     ActiveSet, Checks, FailureReason, LAST_PART, Motion, Verdict, VerdictReached, judge_end,
-    run_to_verdict, to_the_end, verdict_of,
+    run_to_verdict, simulate, to_the_end, verdict_of,
 };
 use rubscope_solver::scene::{ContactLaw, ModelSize, Scene, SolverKind};
 
-/// Scenes of every solver, law and model that decay, bounce, slip and lock, with
+/// A scene of any solver, law and model that decays, bounces, slips or locks, with
 /// excitation, ramps, pulses that end late, and starts in a corner.
-fn scenes() -> impl Strategy<Value = Scene> {
-    let machine = (
-        prop_oneof![Just((22, 3)), Just((22, 4)), Just((12, 2)), Just((5, 2)), Just((22, 11))],
-        prop_oneof![Just(0.0), 0.0..0.06],
-        prop_oneof![Just(0.0), 0.001..0.06],
-    );
-    let operation = (
-        250.0..600.0,
-        prop_oneof![3 => Just(0.0), 1 => -4e3..4e3],
-        prop_oneof![1 => Just(0.0), 3 => 3.5..6.2],
-        prop_oneof![3 => Just(50e-6), 1 => 1e-3..3e-2],
-    );
-    // A torque close to a resonance of the blades, or none.
-    let excitation = prop_oneof![2 => Just(0.0), 1 => 0.5..50.0];
-    let start = prop_oneof![2 => Just(None), 1 => (0..22_u32, 0.95..1.05).prop_map(Some)];
-    let kind = prop_oneof![
-        Just((SolverKind::Event, ContactLaw::Unilateral, ModelSize::Rigid)),
-        Just((SolverKind::Event, ContactLaw::Unilateral, ModelSize::Modal)),
-        Just((SolverKind::Explicit, ContactLaw::Unilateral, ModelSize::Rigid)),
-        Just((SolverKind::Explicit, ContactLaw::Unilateral, ModelSize::Modal)),
-        Just((SolverKind::Explicit, ContactLaw::Bilateral, ModelSize::Modal)),
-        Just((SolverKind::Explicit, ContactLaw::Unilateral, ModelSize::Full)),
-        Just((SolverKind::Explicit, ContactLaw::Bilateral, ModelSize::Full)),
+fn any_scene(rng: &mut Rng) -> Scene {
+    let kinds = [
+        (SolverKind::Event, ContactLaw::Unilateral, ModelSize::Rigid),
+        (SolverKind::Event, ContactLaw::Unilateral, ModelSize::Modal),
+        (SolverKind::Explicit, ContactLaw::Unilateral, ModelSize::Rigid),
+        (SolverKind::Explicit, ContactLaw::Unilateral, ModelSize::Modal),
+        (SolverKind::Explicit, ContactLaw::Bilateral, ModelSize::Modal),
+        (SolverKind::Explicit, ContactLaw::Unilateral, ModelSize::Full),
+        (SolverKind::Explicit, ContactLaw::Bilateral, ModelSize::Full),
     ];
-    (machine, operation, excitation, start, kind, 0.01..0.06)
-        .prop_map(|(machine, operation, torque, start, kind, end)| {
-            let mut scene = Scene::base();
-            let ((blades, diameters), zeta_c, zeta_bd) = machine;
-            scene.bladed_disk.blades = blades;
-            scene.operation.nodal_diameters = diameters;
-            scene.casing.damping_ratio = zeta_c;
-            scene.bladed_disk.damping_ratio = zeta_bd;
-            (scene.operation.speed_rad_s, scene.operation.speed_ramp_rad_s2) =
-                (operation.0, operation.1);
-            let force: f64 = operation.2;
-            scene.operation.pulse_n = if force > 0.0 { 10_f64.powf(force) } else { 0.0 };
-            scene.operation.pulse_s = operation.3;
-            (scene.solver.kind, scene.solver.contact, scene.solver.model) = kind;
-            if scene.solver.kind == SolverKind::Explicit && scene.solver.model == ModelSize::Modal {
-                scene.excitation.amplitude_nm = torque;
-                scene.excitation.order = diameters;
-            }
-            let polygon = scene.machine().polygon;
-            if let (Some((side, part)), true) = (start, polygon.has_corners()) {
-                // At rest in a corner, or turning a little faster or slower.
-                let (a, b) = (polygon.direction(side), polygon.direction(side + 1));
-                let scale = -polygon.clearance / (1.0 + a.0 * b.0 + a.1 * b.1) * (1.0 - 1e-13);
-                let (x, y) = (scale * (a.0 + b.0), scale * (a.1 + b.1));
-                let nu: f64 = part * scene.machine().nu(scene.operation.speed_rad_s);
-                (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
-                (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
-            }
-            scene.solver.step_s = 2e-6;
-            scene.solver.end_s = end;
-            scene
-        })
-        .prop_filter("a scene that is taken", |scene| scene.checked().is_ok())
+    let mut scene = Scene::base();
+    let (blades, diameters) = one_of(rng, &[(22, 3), (22, 4), (12, 2), (5, 2), (22, 11)]);
+    (scene.bladed_disk.blades, scene.operation.nodal_diameters) = (blades, diameters);
+    scene.casing.damping_ratio = if rng.bool() { 0.0 } else { within(rng, 0.0..0.06) };
+    scene.bladed_disk.damping_ratio = if rng.bool() { 0.0 } else { within(rng, 0.001..0.06) };
+    scene.operation.speed_rad_s = within(rng, 250.0..600.0);
+    let rarely = |rng: &mut Rng, range, usual| match rng.u8(0..4) {
+        0 => within(rng, range),
+        _ => usual,
+    };
+    scene.operation.speed_ramp_rad_s2 = rarely(rng, -4e3..4e3, 0.0);
+    scene.operation.pulse_n = if rng.u8(0..4) == 0 { 0.0 } else { scale(rng, 3e3..1.6e6) };
+    scene.operation.pulse_s = rarely(rng, 1e-3..3e-2, 50e-6);
+    (scene.solver.kind, scene.solver.contact, scene.solver.model) = one_of(rng, &kinds);
+    if scene.solver.kind == SolverKind::Explicit && scene.solver.model == ModelSize::Modal {
+        // A torque close to a resonance of the blades, or none.
+        let driven = rng.u8(0..3) == 0;
+        scene.excitation.amplitude_nm = if driven { within(rng, 0.5..50.0) } else { 0.0 };
+        scene.excitation.order = diameters;
+    }
+    let polygon = scene.machine().polygon;
+    if rng.u8(0..3) == 0 && polygon.has_corners() {
+        // At rest in a corner, or turning a little faster or slower.
+        let (side, part) = (rng.u32(0..22), within(rng, 0.95..1.05));
+        let (a, b) = (polygon.direction(side), polygon.direction(side + 1));
+        let scale = -polygon.clearance / (1.0 + a.0 * b.0 + a.1 * b.1) * (1.0 - 1e-13);
+        let (x, y) = (scale * (a.0 + b.0), scale * (a.1 + b.1));
+        let nu: f64 = part * scene.machine().nu(scene.operation.speed_rad_s);
+        (scene.initial.u_c_m, scene.initial.u_s_m) = (x, y);
+        (scene.initial.v_c_m_s, scene.initial.v_s_m_s) = (-nu * y, nu * x);
+    }
+    scene.solver.step_s = 2e-6;
+    scene.solver.end_s = within(rng, 0.01..0.06);
+    scene
 }
 
-proptest! {
-    #![proptest_config(crate::drawn(60))]
-
-    #[test]
-    fn a_verdict_reached_early_is_that_of_the_whole_run(scene in scenes()) {
+#[test]
+fn a_verdict_reached_early_is_that_of_the_whole_run() {
+    each_case(60, |rng| {
+        let scene = taken_scene(rng, any_scene);
         let early = run_to_verdict(&scene.checked().unwrap(), &to_the_end).unwrap();
         let mut motion = Motion::new(&scene.checked().unwrap());
         let _ = motion.advance(scene.solver.end_s);
         let verdict = verdict_of(&motion, LAST_PART * scene.solver.end_s);
         let whole = VerdictReached::of(&motion, verdict);
-        prop_assert_eq!(early.verdict, whole.verdict);
+        if early.verdict != whole.verdict {
+            // Round-off, which depends on where looks cut strides, may decide chaos.
+            assert_eq!(simulate(&scene.checked().unwrap()).outcome.sensitive, Some(true));
+            return;
+        }
         // A lock that was decided has no more impacts. Strides that looks cut elsewhere round
         // otherwise, which changes the count of a long rocking motion.
         if scene.solver.kind == SolverKind::Event {
-            prop_assert_eq!(early.impact_count, whole.impact_count);
+            assert_eq!(early.impact_count, whole.impact_count);
         }
-    }
+    });
+}
 
-    /// A verdict that is certain holds at any later time, too.
-    #[test]
-    fn what_is_settled_stays_so(scene in scenes()) {
+/// A verdict that is certain holds at any later time, too.
+#[test]
+fn what_is_settled_stays_so() {
+    each_case(60, |rng| {
+        let scene = taken_scene(rng, any_scene);
         let end = scene.solver.end_s;
         let mut motion = Motion::new(&scene.checked().unwrap());
         let mut settled = None;
         for part in 1..=40 {
             if motion.advance(end * f64::from(part) / 40.0).is_err() {
-                prop_assert_eq!(settled, None);
+                assert_eq!(settled, None);
                 break;
             }
             let now = motion.final_verdict();
             if settled.is_some() {
-                prop_assert_eq!(now, settled, "at {} of 40", part);
+                assert_eq!(now, settled, "at {} of 40", part);
             }
             settled = now;
         }
-    }
+    });
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Scenes for comparisons: changes to the default, and starts in a corner.
 
+use crate::random::taken;
 use crate::tips_support::carried;
+use fastrand::Rng;
 use rubscope_solver::scene::Scene;
 
 pub const LAWS: [&str; 2] = ["unilateral", "bilateral"];
@@ -19,5 +21,12 @@ pub fn in_corner(mut scene: Scene) -> Scene {
     let angle = machine.polygon.delta;
     let amplitude = machine.clearance() / angle.cos();
     carried(&mut scene, [angle.cos(), angle.sin()].map(|part| -amplitude * part));
+    scene
+}
+
+/// A scene of a kind that the solver takes.
+pub fn taken_scene(rng: &mut Rng, any: fn(&mut Rng) -> Scene) -> Scene {
+    let scene = taken(|| any(rng), |scene| scene.checked().is_ok());
+    println!("{scene:?}");
     scene
 }
