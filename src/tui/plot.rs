@@ -542,11 +542,8 @@ mod tests {
     fn ticks_and_signs_are_in_the_cell_of_the_data() {
         for case in 0..256 {
             let rng = &mut Rng::with_seed(case);
-            let width = rng.u16(12..90);
-            let height = rng.u16(4..50);
-            let part = rng.f64();
-            let other = rng.f64();
-            let marker = rng.usize(0..5);
+            let (width, height, marker) = (rng.u16(12..90), rng.u16(4..50), rng.usize(0..5));
+            let (part, other) = (rng.f64(), rng.f64());
             let low = 1e6 * (2.0 * rng.f64() - 1.0);
             let span = 1e-6 + 1e6 * rng.f64();
             let marker = (0..marker).fold(Marker::Braille, |marker, _| marker.next());
@@ -576,22 +573,15 @@ mod tests {
     fn any_numbers_at_any_size_are_drawn_without_panic() {
         for case in 0..256 {
             let rng = &mut Rng::with_seed(case);
-            let width = rng.u16(0..80);
-            let height = rng.u16(0..40);
+            let (width, height) = (rng.u16(0..80), rng.u16(0..40));
             let xs = [(); 8].map(|()| any_number(rng));
-            let low = any_number(rng);
-            let high = any_number(rng);
+            let x = ChartAxis::scaled(any_number(rng), any_number(rng));
             let mut buffer = Buffer::empty(Rect::new(0, 0, width, height));
             let area = *buffer.area();
             let pen = Pen { style: Style::new(), sign: '*', dashed: true };
             let look = Appearance::new(Theme::Dark, Marker::Braille);
-            if let Some(mut plot) = Plot::new(
-                &mut buffer,
-                area,
-                ChartAxis::scaled(low, high),
-                ChartAxis::plain(-1.0, 1.0),
-                &look,
-            ) {
+            let y = ChartAxis::plain(-1.0, 1.0);
+            if let Some(mut plot) = Plot::new(&mut buffer, area, x, y, &look) {
                 plot.curve(xs.iter().map(|x| (*x, *x)), &pen);
                 plot.spans(&xs.iter().map(|x| Some((*x, *x))).collect::<Vec<_>>(), &pen);
                 for x in &xs {
