@@ -63,9 +63,8 @@ pub fn watch_signals(to: Sender<ScreenEvent>) -> std::io::Result<()> {
     let watched = deadly_signals().into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]);
     // They wait meanwhile: signal-hook loses one that arrives while its handler is installed.
     let before = SigSet::all().thread_swap_mask(SigmaskHow::SIG_BLOCK)?;
-    let signals = signal_hook::iterator::Signals::new(watched);
+    let mut signals = signal_hook::iterator::Signals::new(watched)?;
     before.thread_set_mask()?;
-    let mut signals = signals?;
     let watch = move || {
         for signal in signals.forever() {
             match signal {

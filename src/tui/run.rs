@@ -120,8 +120,7 @@ pub fn run<B: Backend>(
     let mut again = false;
     let mut answer: Option<Instant> = None;
     // What is computed depends on what is shown.
-    let size = screen.size()?;
-    app.layout.size = (size.width, size.height);
+    app.layout.size = screen.size()?.into();
     let mut throttle = Throttle::new(host.line(), Instant::now(), terminal::sent());
     loop {
         order(app, engine, &mut ordered);
