@@ -1,7 +1,7 @@
 //! Laws of the event solver that need no reference, over random scenes of the paper and beyond:
 //! nothing penetrates, nothing pulls, energy balances, a mirrored or turned start gives a
 //! mirrored or turned motion, and the motion does not depend on when it is sampled. A new law is
-//! a function of a scene; a new kind of scene is a part of `scenes`.
+//! a function of a scene; a new kind of scene is a part of `any_scene`.
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,5 @@
 //! A verdict reached early is the verdict of the whole run, with any excitation. A new kind of
-//! scene is a part of `scenes`.
+//! scene is a part of `any_scene`.
 
 use crate::plain::scenes::{in_corner, scene, taken_scene};
 use crate::random::{each_case, one_of, scale, within};
