@@ -16,8 +16,8 @@ use crate::cli_support::hearing;
 const WITHIN: f64 = 1e-5;
 
 files! {
-    "transcripts": files hbm lines machine map margins margins_unusual modes notes precision program refusals
-    refusals_keys refusals_maps refusals_runs run survey
+    "transcripts": files hbm lines machine map margins margins_unusual modes notes notes_beyond precision program
+    refusals refusals_keys refusals_maps refusals_runs run survey
 }
 
 /// A command and the lines below it.
