@@ -275,6 +275,7 @@ mod tests {
     #[test]
     fn ticks_of_any_range_are_few_increasing_and_inside() {
         for case in 0..256 {
+            println!("case {case}");
             let rng = &mut Rng::with_seed(case);
             let low = 1e12 * (2.0 * rng.f64() - 1.0);
             let span = 1e-9 + 1e12 * rng.f64();
