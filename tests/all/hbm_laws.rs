@@ -39,6 +39,11 @@ fn machines_with(rng: &mut Rng, stiffness: Range<f64>) -> Machine {
     taken(any, |machine| machine.polygon.has_corners())
 }
 
+/// A speed, as a part of the critical one.
+fn speed_of(rng: &mut Rng, machine: &Machine, parts: Range<f64>) -> f64 {
+    within(rng, parts) * machine.critical_speed().unwrap_or(1.0)
+}
+
 /// The same machine with blades stiffer by this factor.
 fn stiffened(machine: &Machine, times: f64) -> Machine {
     let mut machine = machine.clone();
@@ -59,7 +64,7 @@ fn every_form_solves_its_equations() {
     each_case(256, |rng| {
         let machine = machines(rng);
         let damped = rng.bool();
-        let speed = within(rng, 0.0..4.0) * machine.critical_speed().unwrap_or(1.0);
+        let speed = speed_of(rng, &machine, 0.0..4.0);
         let corner = Corner::after(&machine.polygon, rng.u32(0..1000)).unwrap();
         for form in Form::ALL {
             let locked = Locked::new(&machine, corner, form, damped).unwrap();
@@ -80,7 +85,7 @@ fn slightly_stiffer_blades_are_held_almost_alike() {
     each_case(256, |rng| {
         let machine = machines(rng);
         let damped = rng.bool();
-        let speed = within(rng, 0.0..4.0) * machine.critical_speed().unwrap_or(1.0);
+        let speed = speed_of(rng, &machine, 0.0..4.0);
         let corner = Corner::after(&machine.polygon, 0).unwrap();
         let stiffer = stiffened(&machine, 1.0 + 1e-6);
         for form in Form::ALL {
@@ -104,7 +109,7 @@ fn slightly_stiffer_blades_are_held_almost_alike() {
 fn power_is_what_the_damper_takes() {
     each_case(256, |rng| {
         let machine = machines(rng);
-        let speed = within(rng, -4.0..4.0) * machine.critical_speed().unwrap_or(1.0);
+        let speed = speed_of(rng, &machine, -4.0..4.0);
         let nu = machine.nu(speed);
         for state in equilibria(&machine, speed, true).unwrap() {
             let dissipated = machine.casing_damping * nu * nu * state.amplitude_m.powi(2);
@@ -155,7 +160,7 @@ fn turning_by_a_group_turns_the_state() {
     each_case(256, |rng| {
         let machine = machines(rng);
         let a = rng.u32(0..1000);
-        let speed = within(rng, 1.0..3.0) * machine.critical_speed().unwrap_or(1.0);
+        let speed = speed_of(rng, &machine, 1.0..3.0);
         let at = |side| {
             let corner = Corner::after(&machine.polygon, side).unwrap();
             Locked::new(&machine, corner, Form::Modal, true).unwrap().at(speed)
@@ -187,7 +192,7 @@ fn turning_by_a_group_turns_the_state() {
 fn the_other_sense_of_rotation_is_the_mirror() {
     each_case(256, |rng| {
         let machine = machines(rng);
-        let speed = within(rng, 0.1..3.0) * machine.critical_speed().unwrap_or(1.0);
+        let speed = speed_of(rng, &machine, 0.1..3.0);
         let corner = Corner::after(&machine.polygon, 0).unwrap();
         let locked = Locked::new(&machine, corner, Form::Modal, true).unwrap();
         if let (Some(one), Some(mirror)) = (locked.at(speed), locked.at(-speed)) {
@@ -231,7 +236,7 @@ fn signs_follow_the_thresholds() {
 fn slip_is_a_fixed_point_that_attracts_and_closes_its_power() {
     each_case(256, |rng| {
         let machine = machines(rng);
-        let speed = within(rng, 1.0..8.0) * machine.critical_speed().unwrap_or(1.0);
+        let speed = speed_of(rng, &machine, 1.0..8.0);
         if let Ok(orbit) = slip_over(&machine, &[speed]).unwrap()[0].outcome {
             assert!(orbit.slope > 0.0 && orbit.slope < 1.0);
             assert!(orbit.wave_speed_rad_s > 0.0 && orbit.wave_speed_rad_s < speed);

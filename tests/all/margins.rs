@@ -11,7 +11,7 @@ const SPEED: &str = "operation.speed_rad_s";
 
 /// A scene of another machine than the paper's, at rest.
 fn random_scene(random: &mut fastrand::Rng) -> CheckedScene {
-    let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
+    let mut between = |low, high| crate::random::within(random, low..high);
     let mut scene = Scene::base();
     let disk = &mut scene.bladed_disk;
     disk.blades = between(5.0, 45.0) as u32;

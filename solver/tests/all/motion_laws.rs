@@ -9,7 +9,7 @@ use rubscope_solver::scene::{ContactLaw, ModelSize, Scene};
 
 /// A random machine with something beyond the paper.
 fn machines(rng: &mut Rng) -> Scene {
-    let blades = [(22, 3), (22, 4), (12, 3), (7, 3), (5, 0), (3, 1), (1, 1), (67, 5)];
+    let blades = [(22, 3), (22, 4), (12, 3), (7, 3), (5, 0), (3, 1), (1, 1), (96, 5)];
     let laws = [ContactLaw::Unilateral, ContactLaw::Smooth, ContactLaw::Bilateral];
     let mut scene = Scene::base();
     (scene.bladed_disk.blades, scene.operation.nodal_diameters) = one_of(rng, &blades);
